@@ -17,7 +17,8 @@ using decomp::mesh::TriMesh;
 inline TriMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
     TriMesh mesh;
     for (unsigned i = 0; i < 8; ++i) {
-        mesh.points.emplace_back((i & 4U) != 0 ? high.x() : low.x(), (i & 2U) != 0 ? high.y() : low.y(),
+        mesh.points.emplace_back((i & 4U) != 0 ? high.x() : low.x(),
+                                 (i & 2U) != 0 ? high.y() : low.y(),
                                  (i & 1U) != 0 ? high.z() : low.z());
     }
     mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
@@ -34,11 +35,14 @@ inline TriMesh sphere(double radius, std::uint32_t around, std::uint32_t rings) 
         for (std::uint32_t a = 0; a < around; ++a) {
             const double turn = 2 * std::numbers::pi * a / around;
             mesh.points.emplace_back(radius * std::sin(polar) * std::cos(turn),
-                                     radius * std::sin(polar) * std::sin(turn), radius * std::cos(polar));
+                                     radius * std::sin(polar) * std::sin(turn),
+                                     radius * std::cos(polar));
         }
     }
     mesh.points.emplace_back(0, 0, -radius);
-    const auto at = [&](std::uint32_t ring, std::uint32_t a) { return 1 + ring * around + a % around; };
+    const auto at = [&](std::uint32_t ring, std::uint32_t a) {
+        return 1 + ring * around + a % around;
+    };
     const auto south = static_cast<std::uint32_t>(mesh.points.size() - 1);
     for (std::uint32_t a = 0; a < around; ++a) {
         mesh.triangles.push_back({0, at(0, a), at(0, a + 1)});
@@ -62,7 +66,9 @@ inline TriMesh torus(double radius, double tube, std::uint32_t around, std::uint
             mesh.points.emplace_back(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
         }
     }
-    const auto at = [&](std::uint32_t i, std::uint32_t j) { return (i % around) * rings + j % rings; };
+    const auto at = [&](std::uint32_t i, std::uint32_t j) {
+        return (i % around) * rings + j % rings;
+    };
     for (std::uint32_t i = 0; i < around; ++i) {
         for (std::uint32_t j = 0; j < rings; ++j) {
             mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});

@@ -4,10 +4,12 @@
 #include "decomp/base/units.h"
 
 #include <Eigen/Core>
+
 #include <cstdint>
 #include <vector>
 
-/// The neck between planning and machines for filament printing: semantic moves, no G-code, no E axis.
+/// The neck between planning and machines for filament printing: semantic moves, no G-code, no E
+/// axis.
 namespace cam::path {
 
 enum class Feature : std::uint8_t {
@@ -28,8 +30,9 @@ enum class Feature : std::uint8_t {
 /// The word that stands for a feature in reports and in ";TYPE:" comments, e.g. "outer-wall".
 [[nodiscard]] const char* feature_name(Feature feature);
 
-/// A continuous bead: starts at points.front() and follows the points at one height. A closed loop repeats its first
-/// point. The cross-section is that of fdm.md: stadium, area = (width - h (1 - pi/4)) h.
+/// A continuous bead: starts at points.front() and follows the points at one height. A closed loop
+/// repeats its first point. The cross-section is that of fdm.md: stadium, area = (width - h (1 -
+/// pi/4)) h.
 struct Bead {
     Feature feature = Feature::OuterWall;
     std::vector<Eigen::Vector2d> points;  ///< mm, at least two
@@ -41,15 +44,16 @@ struct Bead {
 /// Cross-section of a bead, mm^2.
 [[nodiscard]] double bead_area_mm2(double width_mm, double height_mm);
 
-/// One layer: its beads in printing order. The travel between two beads is straight, and made by `post`
-/// (retracting when it is longer than the profile's limit).
+/// One layer: its beads in printing order. The travel between two beads is straight, and made by
+/// `post` (retracting when it is longer than the profile's limit).
 struct Layer {
     double z_mm = 0;       ///< height of the nozzle = top of the layer
     double height_mm = 0;  ///< of the part's beads; supports may differ
     std::vector<Bead> beads;
 };
 
-/// A part's or a whole plate's layers, bottom up. Frame: PartBedFrame for a part, BedFrame for a plate.
+/// A part's or a whole plate's layers, bottom up. Frame: PartBedFrame for a part, BedFrame for a
+/// plate.
 struct LayerStack {
     std::vector<Layer> layers;
 };

@@ -7,8 +7,8 @@
 namespace decomp::detail {
 
 void assertion_failed(const char* condition, const char* file, int line) {
-    std::fprintf(stderr, "hew: internal error: %s does not hold at %s:%d. Please report it.\n", condition, file,
-                 line);
+    std::fprintf(stderr, "hew: internal error: %s does not hold at %s:%d. Please report it.\n",
+                 condition, file, line);
     std::abort();
 }
 

@@ -8,5 +8,6 @@ namespace decomp::detail {
 }  // namespace decomp::detail
 
 /// A broken invariant is a bug, not an error: it stops the program, in release builds too.
-#define DECOMP_ASSERT(condition) \
-    ((condition) ? static_cast<void>(0) : ::decomp::detail::assertion_failed(#condition, __FILE__, __LINE__))
+#define DECOMP_ASSERT(condition)        \
+    ((condition) ? static_cast<void>(0) \
+                 : ::decomp::detail::assertion_failed(#condition, __FILE__, __LINE__))

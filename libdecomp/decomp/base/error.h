@@ -6,11 +6,13 @@
 
 namespace decomp {
 
-/// A failure as a value: what went wrong, where, and what to try. Every code is listed in docs/errors.md.
+/// A failure as a value: what went wrong, where, and what to try. Every code is listed in
+/// docs/errors.md.
 struct Error {
-    std::string code;                ///< stable dotted word, e.g. "mesh.not_closed"
-    std::string message;             ///< what happened, one sentence
-    std::string where;               ///< file:line:column, triangle, move, part id; empty if nowhere in particular
+    std::string code;     ///< stable dotted word, e.g. "mesh.not_closed"
+    std::string message;  ///< what happened, one sentence
+    std::string
+        where;  ///< file:line:column, triangle, move, part id; empty if nowhere in particular
     std::string hint;                ///< what to try; empty if nothing sensible can be said
     std::vector<std::string> notes;  ///< further facts, one a line
 

@@ -14,8 +14,9 @@ namespace decomp {
 namespace {
 
 tl::unexpected<Error> unwritable(const std::filesystem::path& path, int error_number) {
-    return fail("file.unwritable", std::string("cannot write the file: ") + std::strerror(error_number),
-                path.string(), "check the folder, its permissions and the free space");
+    return fail("file.unwritable",
+                std::string("cannot write the file: ") + std::strerror(error_number), path.string(),
+                "check the folder, its permissions and the free space");
 }
 
 bool write_all(int descriptor, std::string_view bytes) {
@@ -42,7 +43,8 @@ Result<std::string> read_file(const std::filesystem::path& path) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     if (!in || in.bad() || std::filesystem::is_directory(path, ignored)) {
-        return fail("file.unreadable", "cannot read the file", path.string(), "check its permissions");
+        return fail("file.unreadable", "cannot read the file", path.string(),
+                    "check its permissions");
     }
     return bytes;
 }
@@ -50,10 +52,12 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 Status write_file(const std::filesystem::path& path, std::string_view bytes, Overwrite overwrite) {
     std::error_code ignored;
     if (overwrite == Overwrite::Refuse && std::filesystem::exists(path, ignored)) {
-        return fail("file.exists", "the file exists already", path.string(), "choose another name, or add --force");
+        return fail("file.exists", "the file exists already", path.string(),
+                    "choose another name, or add --force");
     }
     // The temporary lies in the same folder, for rename() is atomic only within one file system.
-    std::string temporary = (path.parent_path() / (".hew-" + path.filename().string() + "-XXXXXX")).string();
+    std::string temporary =
+        (path.parent_path() / (".hew-" + path.filename().string() + "-XXXXXX")).string();
     const int descriptor = ::mkstemp(temporary.data());
     if (descriptor < 0) {
         return unwritable(path, errno);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <array>
 
 namespace decomp {
@@ -9,11 +10,13 @@ namespace decomp {
 /// Frames are empty tags; docs/frames.md has the drawing. All are right-handed, millimetres, Z up.
 struct ModelFrame {};  ///< the input shape after units, --up and --height; every part lives here
 
-struct PartBedFrame {};  ///< one part as it is printed: base at z = 0, bounding box centred on x = y = 0
+struct PartBedFrame {
+};  ///< one part as it is printed: base at z = 0, bounding box centred on x = y = 0
 
 struct BedFrame {};  ///< one plate: the machine's own coordinates, z = 0 on the plate
 
-/// A rigid motion that carries points of From into To. `Pose<A, B> * Pose<B, C>` composes; other pairs do not compile.
+/// A rigid motion that carries points of From into To. `Pose<A, B> * Pose<B, C>` composes; other
+/// pairs do not compile.
 template <class To, class From>
 class Pose {
   public:
@@ -21,7 +24,9 @@ class Pose {
 
     explicit Pose(const Eigen::Isometry3d& map) : map_(map) {}
 
-    [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return map_ * point; }
+    [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+        return map_ * point;
+    }
 
     [[nodiscard]] Eigen::Vector3d turn(const Eigen::Vector3d& direction) const {
         return map_.linear() * direction;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/base/hash.h"
 
-#include <openssl/evp.h>
-
 #include "decomp/base/assert.h"
+
+#include <openssl/evp.h>
 
 #include <array>
 
@@ -12,7 +12,8 @@ namespace decomp {
 std::string sha256_hex(std::string_view bytes) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int length = 0;
-    DECOMP_ASSERT(EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) == 1);
+    DECOMP_ASSERT(
+        EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) == 1);
     constexpr std::string_view kDigits = "0123456789abcdef";
     std::string out;
     out.reserve(std::size_t{2} * length);

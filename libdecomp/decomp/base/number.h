@@ -5,8 +5,9 @@
 
 namespace decomp {
 
-/// Decimal text with at most `decimals` digits after the point (0..9): rounded half away from zero on the decimal
-/// grid, no trailing zeros, no exponent, no locale, never "-0". |value| must be below 1e9.
+/// Decimal text with at most `decimals` digits after the point (0..9): rounded half away from zero
+/// on the decimal grid, no trailing zeros, no exponent, no locale, never "-0". |value| must be
+/// below 1e9.
 [[nodiscard]] std::string decimal(double value, int decimals);
 
 /// As decimal(), trailing zeros kept: "1.500".

@@ -9,7 +9,8 @@
 
 namespace decomp {
 
-void for_each_index(const Run& run, std::size_t count, const std::function<void(std::size_t)>& body) {
+void for_each_index(const Run& run, std::size_t count,
+                    const std::function<void(std::size_t)>& body) {
     // TBB prints a warning when asked for more threads than there are.
     const int threads = std::min(run.jobs, tbb::info::default_concurrency());
     if (threads <= 1 || count <= 1) {

@@ -3,8 +3,9 @@
 
 #include "decomp/base/error.h"
 
-#include <string>
 #include <tl/expected.hpp>
+
+#include <string>
 #include <utility>
 
 namespace decomp {
@@ -16,9 +17,10 @@ using Result = tl::expected<T, Error>;
 /// A Result without a value.
 using Status = Result<void>;
 
-/// What a function returns on failure: `return fail("mesh.empty", "the file holds no triangle", path);`
-[[nodiscard]] inline tl::unexpected<Error> fail(std::string code, std::string message, std::string where = {},
-                                                std::string hint = {}) {
+/// What a function returns on failure: `return fail("mesh.empty", "the file holds no triangle",
+/// path);`
+[[nodiscard]] inline tl::unexpected<Error> fail(std::string code, std::string message,
+                                                std::string where = {}, std::string hint = {}) {
     return tl::make_unexpected(
         Error{std::move(code), std::move(message), std::move(where), std::move(hint), {}});
 }

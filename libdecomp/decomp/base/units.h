@@ -4,7 +4,8 @@
 #include <compare>
 #include <numbers>
 
-/// Inside: millimetres, radians, seconds, mm/s, degrees Celsius. A type where two units live, a suffix where one does.
+/// Inside: millimetres, radians, seconds, mm/s, degrees Celsius. A type where two units live, a
+/// suffix where one does.
 namespace decomp {
 
 /// An angle that never wraps: 720 degrees is not 0.

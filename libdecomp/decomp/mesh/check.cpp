@@ -39,7 +39,9 @@ std::vector<Side> sorted_sides(const TriMesh& mesh) {
 /// Union-find with path halving.
 class Sets {
   public:
-    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+    explicit Sets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
 
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i) {
@@ -49,14 +51,16 @@ class Sets {
         return i;
     }
 
-    void unite(std::uint32_t a, std::uint32_t b) { parent_[std::max(find(a), find(b))] = std::min(find(a), find(b)); }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        parent_[std::max(find(a), find(b))] = std::min(find(a), find(b));
+    }
 
   private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Corners of triangles as nodes: united where two triangles share an edge at that vertex. A vertex is manifold when
-/// all its corners end in one set.
+/// Corners of triangles as nodes: united where two triangles share an edge at that vertex. A vertex
+/// is manifold when all its corners end in one set.
 std::size_t count_non_manifold_vertices(const TriMesh& mesh, const std::vector<Side>& sides) {
     Sets corners(mesh.triangles.size() * 3);
     const auto corner_of = [&](std::uint32_t triangle, std::uint64_t vertex) {
@@ -70,7 +74,8 @@ std::size_t count_non_manifold_vertices(const TriMesh& mesh, const std::vector<S
     for (std::size_t i = 1; i < sides.size(); ++i) {
         if (sides[i].edge == sides[i - 1].edge) {
             for (const std::uint64_t vertex : {sides[i].edge >> 32U, sides[i].edge & 0xFFFFFFFFU}) {
-                corners.unite(corner_of(sides[i].triangle, vertex), corner_of(sides[i - 1].triangle, vertex));
+                corners.unite(corner_of(sides[i].triangle, vertex),
+                              corner_of(sides[i - 1].triangle, vertex));
             }
         }
     }
@@ -78,7 +83,8 @@ std::size_t count_non_manifold_vertices(const TriMesh& mesh, const std::vector<S
     for (std::uint32_t i = 0; i < mesh.triangles.size() * 3; ++i) {
         umbrellas[mesh.triangles[i / 3].at(i % 3)] += corners.find(i) == i ? 1U : 0U;
     }
-    return static_cast<std::size_t>(std::count_if(umbrellas.begin(), umbrellas.end(), [](auto n) { return n > 1; }));
+    return static_cast<std::size_t>(
+        std::count_if(umbrellas.begin(), umbrellas.end(), [](auto n) { return n > 1; }));
 }
 
 }  // namespace
@@ -110,7 +116,8 @@ TopologyReport check_topology(const TriMesh& mesh) {
     }
     report.non_manifold_vertices = count_non_manifold_vertices(mesh, sides);
     report.euler_characteristic = static_cast<long>(std::count(used.begin(), used.end(), true)) -
-                                  static_cast<long>(edges) + static_cast<long>(mesh.triangles.size());
+                                  static_cast<long>(edges) +
+                                  static_cast<long>(mesh.triangles.size());
     return report;
 }
 

@@ -13,7 +13,8 @@ class Sum {
   public:
     void add(double value) {
         const double total = total_ + value;
-        rest_ += std::abs(total_) >= std::abs(value) ? (total_ - total) + value : (value - total) + total_;
+        rest_ += std::abs(total_) >= std::abs(value) ? (total_ - total) + value
+                                                     : (value - total) + total_;
         total_ = total;
     }
 

@@ -12,14 +12,15 @@ namespace decomp::part {
 
 /// Where a facet of a part comes from: the input surface, or a cut.
 struct FacetSource {
-    std::int32_t plane = -1;      ///< index in Assembly::planes; -1 on the input surface
-    std::int32_t neighbour = -1;  ///< index in Assembly::parts of the part on the other side; -1 on the input surface
+    std::int32_t plane = -1;  ///< index in Assembly::planes; -1 on the input surface
+    std::int32_t neighbour =
+        -1;  ///< index in Assembly::parts of the part on the other side; -1 on the input surface
 
     [[nodiscard]] bool is_cut() const { return plane >= 0; }
 };
 
-/// One part in the model frame. Closed, manifold, outward oriented; a cut facet occurs in exactly two parts, with the
-/// same three points bit for bit and opposite orientation.
+/// One part in the model frame. Closed, manifold, outward oriented; a cut facet occurs in exactly
+/// two parts, with the same three points bit for bit and opposite orientation.
 struct Part {
     std::string id;                    ///< "P01", dense and sorted
     mesh::TriMesh mesh;                ///< mm, model frame

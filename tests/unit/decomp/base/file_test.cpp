@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/base/file.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/support/temp_dir.h"
+
+#include <gtest/gtest.h>
 
 namespace {
 

@@ -10,7 +10,9 @@ TEST(Number, NeverPrintsMinusZero) {
     EXPECT_EQ(decomp::fixed(-0.0004, 3), "0.000");
 }
 
-TEST(Number, KeepsTheSignOfNumbersBetweenMinusOneAndZero) { EXPECT_EQ(decomp::decimal(-0.5, 3), "-0.5"); }
+TEST(Number, KeepsTheSignOfNumbersBetweenMinusOneAndZero) {
+    EXPECT_EQ(decomp::decimal(-0.5, 3), "-0.5");
+}
 
 TEST(Number, DropsTrailingZerosButNotThoseBeforeThePoint) {
     EXPECT_EQ(decomp::decimal(100, 3), "100");

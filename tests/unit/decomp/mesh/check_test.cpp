@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/mesh/check.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/support/shapes.h"
+
+#include <gtest/gtest.h>
 
 namespace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/mesh/measure.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/support/shapes.h"
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -14,7 +14,8 @@ TEST(MeshMeasure, ABoxHasItsVolumeAndArea) {
 }
 
 TEST(MeshMeasure, AnInsideOutBoxHasNegativeVolume) {
-    EXPECT_DOUBLE_EQ(decomp::mesh::volume_mm3(tests::flipped(tests::box({0, 0, 0}, {1, 1, 1}))), -1);
+    EXPECT_DOUBLE_EQ(decomp::mesh::volume_mm3(tests::flipped(tests::box({0, 0, 0}, {1, 1, 1}))),
+                     -1);
 }
 
 TEST(MeshMeasure, AFineSphereApproachesTheClosedForm) {
