@@ -3,10 +3,13 @@
 
 #include "decomp/mesh/tri_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 /// Shapes with known topology and volume, outward oriented, made in code.
 namespace tests {
@@ -76,6 +79,38 @@ inline TriMesh torus(double radius, double tube, std::uint32_t around, std::uint
         }
     }
     return mesh;
+}
+
+/// Solid of revolution about Z: the profile's (radius, height) points from top to bottom, strictly
+/// between two poles on the axis.
+inline TriMesh revolved(double top, const std::vector<std::array<double, 2>>& profile,
+                        double bottom, std::uint32_t around) {
+    TriMesh mesh = sphere(1, around, static_cast<std::uint32_t>(profile.size()));
+    mesh.points.front() = {0, 0, top};
+    mesh.points.back() = {0, 0, bottom};
+    for (std::uint32_t r = 0; r < profile.size(); ++r) {
+        for (std::uint32_t a = 0; a < around; ++a) {
+            const double turn = 2 * std::numbers::pi * a / around;
+            mesh.points[1 + r * around + a] = {profile[r][0] * std::cos(turn),
+                                               profile[r][0] * std::sin(turn), profile[r][1]};
+        }
+    }
+    return mesh;
+}
+
+/// Two balls of the given radius joined by a smooth waist about Z, thinnest at height neck_z.
+inline TriMesh dumbbell(double radius, double waist, double half_length, double neck_z,
+                        std::uint32_t around) {
+    std::vector<std::array<double, 2>> profile;
+    constexpr int kRings = 120;
+    for (int i = 1; i < kRings; ++i) {
+        const double z = half_length * std::cos(std::numbers::pi * i / kRings);
+        const double end = std::sqrt(std::max(0.0, 1 - std::pow(z / half_length, 4)));
+        const double from_neck = (z - neck_z) / (0.35 * half_length);
+        profile.push_back(
+            {end * (radius - (radius - waist) * std::exp(-from_neck * from_neck)), z});
+    }
+    return revolved(half_length, profile, -half_length, around);
 }
 
 /// The triangles of both, points side by side.
