@@ -4,12 +4,14 @@
 #include "decomp/base/units.h"
 
 #include <Eigen/Core>
+
 #include <string>
 #include <vector>
 
 namespace cam::profile {
 
-/// A Cartesian filament printer and the process it runs by default. Read from machine_profiles/fdm/NAME.toml.
+/// A Cartesian filament printer and the process it runs by default. Read from
+/// machine_profiles/fdm/NAME.toml.
 struct FdmMachine {
     std::string name;     ///< the file's stem, e.g. "flashforge-creator-pro"
     std::string title;    ///< for people
@@ -28,6 +30,12 @@ struct FdmMachine {
         double max_flow_mm3_per_s = 11;
     } nozzle;
 
+    /// What the heaters can hold; a material that wants more is refused.
+    struct Heaters {
+        double max_nozzle_celsius = 250;
+        double max_bed_celsius = 110;
+    } heaters;
+
     /// Limits of the axes X, Y, Z, E and of the planner.
     struct Motion {
         Eigen::Vector4d max_speed_mm_per_s = Eigen::Vector4d::Zero();
@@ -44,17 +52,18 @@ struct FdmMachine {
         double lift_mm = 0;        ///< z-hop
     } retraction;
 
-    /// Text templates with {placeholders}; docs/profiles.md lists them. Part of the machine, not of the dialect.
+    /// Text templates with {placeholders}; docs/profiles.md lists them. Part of the machine, not of
+    /// the dialect.
     struct Templates {
-        std::string start;
-        std::string layer;
-        std::string end;
+        std::string start;  ///< before the first bead: homing, heating with waiting, priming
+        std::string layer;  ///< after the travel to each new layer
+        std::string end;    ///< after the last bead: heaters and motors off
     } templates;
 
     /// An optional external converter run on every finished program, e.g. gpx for .x3g.
     struct Converter {
         std::string program;    ///< empty: none
-        std::string arguments;  ///< with {in} and {out}
+        std::string arguments;  ///< separated by spaces, with {in} and {out}
         std::string extension;  ///< "x3g"
     } converter;
 
@@ -66,13 +75,14 @@ struct FdmMachine {
         int perimeters = 3;
         int top_layers = 5;
         int bottom_layers = 4;
-        double infill_density = 0.15;                                       ///< 0..1
-        decomp::Angle infill_angle = decomp::Angle::degrees(45);            ///< of the first sparse layer
-        decomp::Angle support_angle = decomp::Angle::degrees(45);           ///< overhang from the horizontal that needs support below
+        double infill_density = 0.15;                             ///< 0..1
+        decomp::Angle infill_angle = decomp::Angle::degrees(45);  ///< of the first sparse layer
+        decomp::Angle support_angle =
+            decomp::Angle::degrees(45);  ///< overhang from the horizontal that needs support below
         double support_spacing_mm = 2.5;
-        double support_gap_z_layers = 1;                                    ///< free layers between support and part
+        double support_gap_z_layers = 1;  ///< free layers between support and part
         double support_gap_xy_mm = 0.6;
-        double brim_width_mm = 0;                                           ///< brim when > 0, else skirt
+        double brim_width_mm = 0;  ///< brim when > 0, else skirt
         int skirt_loops = 2;
         double skirt_distance_mm = 3;
         decomp::Speed outer_wall_speed = decomp::Speed::mm_per_s(30);
@@ -83,8 +93,8 @@ struct FdmMachine {
         decomp::Speed support_speed = decomp::Speed::mm_per_s(45);
         decomp::Speed first_layer_speed = decomp::Speed::mm_per_s(20);
         decomp::Speed travel_speed = decomp::Speed::mm_per_s(120);
-        double part_spacing_mm = 6;                                         ///< between parts on one plate, brim included
-        std::string material = "pla";                                       ///< machine_profiles/materials/NAME.toml
+        double part_spacing_mm = 6;    ///< between parts on one plate, brim included
+        std::string material = "pla";  ///< machine_profiles/materials/NAME.toml
     } process;
 };
 
@@ -99,25 +109,29 @@ struct Material {
     double bed_celsius = 60;
     double max_flow_mm3_per_s = 11;
     double extrusion_multiplier = 1;
-    double fan_fraction = 1;            ///< 0..1, from fan_from_layer on
-    int fan_from_layer = 1;             ///< counted from 0
-    double min_layer_time_s = 10;       ///< slower moves below it
+    double fan_fraction = 1;                                ///< 0..1, from fan_from_layer on
+    int fan_from_layer = 1;                                 ///< counted from 0
+    double min_layer_time_s = 10;                           ///< slower moves below it
     decomp::Speed min_speed = decomp::Speed::mm_per_s(10);  ///< floor of that slow-down
 };
 
-/// What of a dialect differs from printer to printer. Read from machine_profiles/dialects/NAME.toml; words only, no logic.
+/// What of a dialect differs from printer to printer. Read from
+/// machine_profiles/dialects/NAME.toml; words only, no logic.
 struct Dialect {
     std::string name;
     std::string title;
-    bool relative_e = true;              ///< M83, else M82 with G92 E0 at each layer
+    bool relative_e = true;  ///< M83, else M82 with G92 E0 at each layer
     int xyz_decimals = 3;
     int e_decimals = 5;
     int feed_decimals = 0;
     std::string comment = ";";
-    std::string fan_on;                  ///< template with {fan_0_255} and {fan_fraction}; e.g. "M106 S{fan_0_255}" or "M126 T0"
+    std::string fan_on;  ///< template with {fan_0_255} and {fan_fraction}; e.g. "M106 S{fan_0_255}"
+                         ///< or "M126 T0"
     std::string fan_off;
-    std::string set_nozzle;              ///< template with {celsius}
-    std::string set_bed;                 ///< template with {celsius}
+    std::string set_nozzle;  ///< template with {celsius}
+    std::string set_bed;     ///< template with {celsius}
+    std::string
+        reset_e;  ///< template that calls E zero at {x_mm} {y_mm} {z_mm}; used unless relative_e
     std::string progress;                ///< template with {percent} {minutes_left}; empty: none
     std::string max_axes = "XYZE";       ///< axes that the dialect can speak of
     bool fan_is_on_off = false;          ///< no PWM: on when the fraction is at least 0.5
