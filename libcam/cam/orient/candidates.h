@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "decomp/part/judge.h"
+#include "decomp/part/part.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+/// Inside the room: what a part could stand on.
+namespace cam::orient {
+
+/// A plane that touches the part's hull from below when `down` points to the plate.
+struct Stand {
+    Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();  ///< outward normal of the base, unit length
+    int plane = -1;                                    ///< cut plane, or -1
+    bool on_cut_face = false;
+    bool on_flat = false;
+};
+
+/// Cut faces on the hull, then large flats of the input on it; the ends of the model axes when
+/// there is neither, and for an uncut part in any case.
+[[nodiscard]] std::vector<Stand> stands(const decomp::part::Part& part,
+                                        decomp::part::Fidelity fidelity);
+
+}  // namespace cam::orient
