@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cam/path/layers.h"
+#include "cam/profile/read_profile.h"
+#include "decomp/base/result.h"
+#include "decomp/base/run.h"
+#include "decomp/mesh/tri_mesh.h"
+
+namespace cam::fdm {
+
+/// Plans all beads of one part: walls, skins, infill, supports, brim. The skirt belongs to the
+/// plate (merge_layers). The part is sliced in the middle of each layer; the first layer has its
+/// own height and width. Cost: a few milliseconds a layer; parallel over layers, and the result
+/// does not depend on the number of threads.
+/// @param part_on_bed  closed, in PartBedFrame: base at z = 0
+/// @error fdm.open_mesh, fdm.empty (no layer meets material), run.cancelled
+[[nodiscard]] decomp::Result<path::LayerStack> plan_part(const decomp::mesh::TriMesh& part_on_bed,
+                                                         const profile::FdmSetup& setup,
+                                                         const decomp::Run& run);
+
+}  // namespace cam::fdm
