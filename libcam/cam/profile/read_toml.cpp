@@ -80,10 +80,11 @@ class Reader {
             return;
         }
         for (const auto& [name, value] : *table) {
+            const std::string_view wanted = name.str();
             const auto field =
                 std::find_if(fields_.begin(), fields_.end(), [&](const Field& candidate) {
                     return candidate.file == file_ && candidate.section == section &&
-                           candidate.key == name.str();
+                           candidate.key == wanted;
                 });
             if (field == fields_.end()) {
                 report(name.source().begin, "profile.unknown_key",
