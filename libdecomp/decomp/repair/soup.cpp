@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/repair/soup.h"
+
+#include "decomp/mesh/measure.h"
+#include "decomp/repair/edges.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace decomp::repair {
+
+namespace {
+
+constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
+
+bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
+}
+
+/// The corners sorted, and whether sorting takes an even number of swaps.
+struct CornerSet {
+    mesh::Triangle corners{};
+    bool even = false;
+};
+
+CornerSet corner_set(const mesh::Triangle& t) {
+    mesh::Triangle sorted = t;
+    std::sort(sorted.begin(), sorted.end());
+    const auto lowest = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+    return {sorted, t.at((lowest + 1) % 3) < t.at((lowest + 2) % 3)};
+}
+
+void compact_points(mesh::TriMesh& mesh) {
+    std::vector<std::uint32_t> new_index(mesh.points.size(), kUnset);
+    for (const auto& triangle : mesh.triangles) {
+        for (const auto corner : triangle) {
+            new_index[corner] = 0;
+        }
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        if (new_index[i] != kUnset) {
+            mesh.points[kept] = mesh.points[i];
+            new_index[i] = kept++;
+        }
+    }
+    mesh.points.resize(kept);
+    for (auto& triangle : mesh.triangles) {
+        for (auto& corner : triangle) {
+            corner = new_index[corner];
+        }
+    }
+}
+
+/// Angle of the triangle of a side about its edge, from the lower to the higher point,
+/// right-handed.
+double angle_about_edge(const mesh::TriMesh& mesh, const Side& side, const Eigen::Vector3d& u,
+                        const Eigen::Vector3d& v) {
+    const std::uint32_t apex = mesh.triangles[side.triangle].at((side.k + 2U) % 3);
+    const Eigen::Vector3d d = mesh.points[apex] - mesh.points[side.low];
+    return std::atan2(d.dot(v), d.dot(u));
+}
+
+using SidePair = std::pair<Side, Side>;
+
+/// Pairs the sides of an edge so that each pair encloses solid: going round, a triangle that runs
+/// the edge backward has solid behind it and the next forward one ends it. Pairs nest like
+/// brackets; what finds no partner stays alone.
+void pair_around_edge(const mesh::TriMesh& mesh, const Side* begin, const Side* end,
+                      std::vector<SidePair>& pairs) {
+    const Eigen::Vector3d axis = (mesh.points[begin->high] - mesh.points[begin->low]).normalized();
+    const Eigen::Vector3d u = axis.unitOrthogonal();
+    const Eigen::Vector3d v = axis.cross(u);
+    std::vector<std::pair<double, Side>> round;
+    for (const Side* side = begin; side != end; ++side) {
+        round.emplace_back(angle_about_edge(mesh, *side, u, v), *side);
+    }
+    std::sort(round.begin(), round.end());
+    std::vector<bool> used(round.size(), false);
+    std::vector<std::size_t> open_index;
+    for (std::size_t step = 0; step < 2 * round.size(); ++step) {
+        const std::size_t i = step % round.size();
+        if (used[i]) {
+            continue;
+        }
+        const bool first_time = step < round.size();
+        if (!round[i].second.forward) {
+            if (first_time) {
+                open_index.push_back(i);
+            }
+        } else if (!open_index.empty()) {
+            pairs.emplace_back(round[open_index.back()].second, round[i].second);
+            used[i] = true;
+            used[open_index.back()] = true;
+            open_index.pop_back();
+        }
+    }
+}
+
+/// Which sides lie against each other, after pairing at edges with more than two triangles.
+std::vector<SidePair> adjacent_sides(const mesh::TriMesh& mesh, const std::vector<Side>& sides) {
+    std::vector<SidePair> pairs;
+    pairs.reserve(sides.size() / 2);
+    for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
+        if (end - begin == 2) {
+            pairs.emplace_back(sides[begin], sides[begin + 1]);
+        } else if (end - begin > 2) {
+            pair_around_edge(mesh, &sides[begin], &sides[begin] + (end - begin), pairs);
+        }
+    });
+    return pairs;
+}
+
+std::uint32_t corner_at(const mesh::TriMesh& mesh, std::uint32_t triangle, std::uint32_t point) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        if (mesh.triangles[triangle].at(k) == point) {
+            return 3 * triangle + k;
+        }
+    }
+    return 3 * triangle;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> first_of_equal_points(const mesh::TriMesh& mesh) {
+    std::vector<std::uint32_t> order(mesh.points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return mesh.points[a] == mesh.points[b] ? a < b : before(mesh.points[a], mesh.points[b]);
+    });
+    std::vector<std::uint32_t> first(mesh.points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
+        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+std::size_t weld(mesh::TriMesh& mesh) {
+    const std::vector<std::uint32_t> first = first_of_equal_points(mesh);
+    std::size_t merged = 0;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+        merged += first[i] != i ? 1U : 0U;
+    }
+    for (auto& triangle : mesh.triangles) {
+        for (auto& corner : triangle) {
+            corner = first[corner];
+        }
+    }
+    compact_points(mesh);
+    return merged;
+}
+
+std::size_t drop_degenerate(mesh::TriMesh& mesh) {
+    const std::size_t dropped = std::erase_if(mesh.triangles, [](const mesh::Triangle& t) {
+        return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    });
+    compact_points(mesh);
+    return dropped;
+}
+
+DroppedDuplicates drop_duplicates(mesh::TriMesh& mesh) {
+    std::vector<CornerSet> sets;
+    sets.reserve(mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) {
+        sets.push_back(corner_set(triangle));
+    }
+    std::vector<std::uint32_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::tie(sets[a].corners, a) < std::tie(sets[b].corners, b);
+    });
+    DroppedDuplicates dropped;
+    std::vector<bool> keep(mesh.triangles.size(), true);
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        std::size_t even = 0;
+        for (end = begin;
+             end < order.size() && sets[order[end]].corners == sets[order[begin]].corners; ++end) {
+            even += sets[order[end]].even ? 1U : 0U;
+        }
+        const std::size_t odd = end - begin - even;
+        if (end - begin < 2) {
+            continue;
+        }
+        // One of the majority's sense stays; equal numbers of both are a wall with solid, or
+        // nothing, on both sides.
+        bool stays = even != odd;
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool of_majority = sets[order[i]].even == (even > odd);
+            keep[order[i]] = stays && of_majority;
+            stays = stays && !of_majority;
+        }
+        dropped.wall_pairs += std::min(even, odd);
+        dropped.copies += even == odd ? 0 : std::max(even, odd) - std::min(even, odd) - 1;
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (keep[i]) {
+            mesh.triangles[kept++] = mesh.triangles[i];
+        }
+    }
+    mesh.triangles.resize(kept);
+    compact_points(mesh);
+    return dropped;
+}
+
+std::size_t orient_consistently(mesh::TriMesh& mesh) {
+    const std::size_t count = mesh.triangles.size();
+
+    struct Link {
+        std::uint32_t from = 0;
+        std::uint32_t to = 0;
+        bool agree = false;
+    };
+
+    std::vector<Link> links;
+    const std::vector<Side> sides = sorted_sides(mesh);
+    for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
+        if (end - begin == 2) {
+            const Side& a = sides[begin];
+            const Side& b = sides[begin + 1];
+            links.push_back({a.triangle, b.triangle, a.forward != b.forward});
+            links.push_back({b.triangle, a.triangle, a.forward != b.forward});
+        }
+    });
+    std::sort(links.begin(), links.end(), [](const Link& l, const Link& r) {
+        return std::tie(l.from, l.to) < std::tie(r.from, r.to);
+    });
+    std::vector<std::size_t> first_link(count + 1, 0);
+    for (const Link& link : links) {
+        ++first_link[link.from + 1];
+    }
+    std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
+    enum class Sense : std::uint8_t { Unknown, Keep, Turn };
+    std::vector<Sense> sense(count, Sense::Unknown);
+    std::size_t turned = 0;
+    std::vector<std::uint32_t> queue;
+    for (std::uint32_t seed = 0; seed < count; ++seed) {
+        if (sense[seed] != Sense::Unknown) {
+            continue;
+        }
+        sense[seed] = Sense::Keep;
+        queue.assign(1, seed);
+        std::size_t to_turn = 0;
+        for (std::size_t head = 0; head < queue.size(); ++head) {
+            const std::uint32_t triangle = queue[head];
+            to_turn += sense[triangle] == Sense::Turn ? 1U : 0U;
+            for (std::size_t l = first_link[triangle]; l < first_link[triangle + 1]; ++l) {
+                if (sense[links[l].to] == Sense::Unknown) {
+                    const bool keep = (sense[triangle] == Sense::Keep) == links[l].agree;
+                    sense[links[l].to] = keep ? Sense::Keep : Sense::Turn;
+                    queue.push_back(links[l].to);
+                }
+            }
+        }
+        const Sense minority = 2 * to_turn > queue.size() ? Sense::Keep : Sense::Turn;
+        for (const std::uint32_t triangle : queue) {
+            if (sense[triangle] == minority) {
+                std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+                ++turned;
+            }
+        }
+    }
+    return turned;
+}
+
+std::size_t split_non_manifold(mesh::TriMesh& mesh) {
+    Sets umbrellas(mesh.triangles.size() * 3);
+    for (const auto& [a, b] : adjacent_sides(mesh, sorted_sides(mesh))) {
+        for (const std::uint32_t point : {a.low, a.high}) {
+            umbrellas.unite(corner_at(mesh, a.triangle, point), corner_at(mesh, b.triangle, point));
+        }
+    }
+    std::vector<bool> taken(mesh.points.size(), false);
+    std::vector<std::uint32_t> point_of(mesh.triangles.size() * 3, kUnset);
+    std::size_t added = 0;
+    for (std::uint32_t corner = 0; corner < point_of.size(); ++corner) {
+        const std::uint32_t umbrella = umbrellas.find(corner);
+        std::uint32_t& point = mesh.triangles[corner / 3].at(corner % 3);
+        if (point_of[umbrella] == kUnset) {
+            point_of[umbrella] = point;
+            if (taken[point]) {
+                point_of[umbrella] = static_cast<std::uint32_t>(mesh.points.size());
+                mesh.points.push_back(Eigen::Vector3d(mesh.points[point]));
+                taken.push_back(true);
+                ++added;
+            }
+            taken[point] = true;
+        }
+        point = point_of[umbrella];
+    }
+    return added;
+}
+
+Components components(const mesh::TriMesh& mesh) {
+    Sets sets(mesh.triangles.size());
+    const std::vector<Side> sides = sorted_sides(mesh);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i].same_edge(sides[i - 1])) {
+            sets.unite(sides[i].triangle, sides[i - 1].triangle);
+        }
+    }
+    Components parts;
+    parts.of_triangle.resize(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const std::uint32_t root = sets.find(i);
+        parts.of_triangle[i] =
+            root == i ? static_cast<std::uint32_t>(parts.count++) : parts.of_triangle[root];
+    }
+    return parts;
+}
+
+mesh::TriMesh extract(const mesh::TriMesh& mesh, const Components& parts,
+                      const std::vector<bool>& wanted) {
+    mesh::TriMesh out;
+    out.points = mesh.points;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (wanted[parts.of_triangle[i]]) {
+            out.triangles.push_back(mesh.triangles[i]);
+        }
+    }
+    compact_points(out);
+    return out;
+}
+
+void flip(mesh::TriMesh& mesh) {
+    for (auto& triangle : mesh.triangles) {
+        std::swap(triangle[1], triangle[2]);
+    }
+}
+
+}  // namespace decomp::repair

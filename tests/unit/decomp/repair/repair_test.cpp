@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/repair/repair.h"
+
+#include "decomp/mesh/check.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/repair/intersect.h"
+#include "tests/support/shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using decomp::mesh::TriMesh;
+using decomp::repair::repair;
+using decomp::repair::Repaired;
+using decomp::repair::Status;
+
+/// Repairs and checks what every result must be.
+Repaired repaired(const TriMesh& soup) {
+    const auto result = repair(soup, {}, decomp::Run{});
+    EXPECT_TRUE(result) << result.error().text();
+    if (!result) {
+        return {};
+    }
+    EXPECT_TRUE(decomp::mesh::check_topology(result->mesh).manifold());
+    EXPECT_TRUE(decomp::repair::self_intersections(result->mesh, 1).empty());
+    EXPECT_NEAR(decomp::mesh::volume_mm3(result->mesh), result->report.volume_after_mm3, 1e-9);
+    EXPECT_GT(result->report.volume_after_mm3, 0);
+    return *result;
+}
+
+TEST(Repair, ACleanBoxStaysAsItIs) {
+    const TriMesh box = tests::box({0, 0, 0}, {1, 2, 3});
+    const Repaired result = repaired(box);
+    EXPECT_EQ(result.report.status, Status::Clean);
+    EXPECT_TRUE(result.report.changes.empty());
+    EXPECT_EQ(result.mesh.triangles, box.triangles);
+}
+
+TEST(Repair, ABoxInsideOutIsTurned) {
+    const Repaired result = repaired(tests::flipped(tests::box({0, 0, 0}, {1, 2, 3})));
+    EXPECT_EQ(result.report.status, Status::Clean);
+    EXPECT_NEAR(result.report.volume_after_mm3, 6, 1e-12);
+    EXPECT_NEAR(result.report.volume_before_mm3, -6, 1e-12);
+}
+
+TEST(Repair, TrianglesThatFaceTheWrongWayAreTurned) {
+    TriMesh box = tests::box({0, 0, 0}, {1, 2, 3});
+    std::swap(box.triangles[3][0], box.triangles[3][1]);
+    std::swap(box.triangles[8][0], box.triangles[8][1]);
+    const Repaired result = repaired(box);
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_NEAR(result.report.volume_after_mm3, 6, 1e-12);
+}
+
+TEST(Repair, AMissingTriangleOfASphereIsFilled) {
+    TriMesh sphere = tests::sphere(10, 24, 11);
+    const double whole = decomp::mesh::volume_mm3(sphere);
+    sphere.triangles.erase(sphere.triangles.begin() + 100);
+    const Repaired result = repaired(sphere);
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_NEAR(result.report.volume_after_mm3, whole, 1e-9 * whole);
+}
+
+TEST(Repair, ATriangleThatOccursTwiceIsRemovedOnce) {
+    TriMesh box = tests::box({0, 0, 0}, {1, 2, 3});
+    box.triangles.push_back(box.triangles[4]);
+    EXPECT_NEAR(repaired(box).report.volume_after_mm3, 6, 1e-12);
+}
+
+TEST(Repair, AnInwardShellWithinABoxIsACavity) {
+    const Repaired result = repaired(tests::joined(
+        tests::box({0, 0, 0}, {10, 10, 10}), tests::flipped(tests::box({1, 1, 1}, {9, 9, 9}))));
+    EXPECT_EQ(result.report.status, Status::Clean);
+    EXPECT_EQ(result.report.voids, 1U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1000 - 512, 1e-9);
+}
+
+TEST(Repair, AHollowBoxInsideOutKeepsItsCavity) {
+    const Repaired result = repaired(tests::flipped(tests::joined(
+        tests::box({0, 0, 0}, {10, 10, 10}), tests::flipped(tests::box({1, 1, 1}, {9, 9, 9})))));
+    EXPECT_EQ(result.report.voids, 1U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1000 - 512, 1e-9);
+}
+
+TEST(Repair, AnOutwardShellWithinSolidIsMaterialTwiceAndIsDropped) {
+    const Repaired result = repaired(
+        tests::joined(tests::box({0, 0, 0}, {10, 10, 10}), tests::box({1, 1, 1}, {9, 9, 9})));
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_EQ(result.report.shells, 1U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1000, 1e-9);
+}
+
+TEST(Repair, ASolidWithinACavityStays) {
+    TriMesh nested = tests::joined(tests::box({0, 0, 0}, {10, 10, 10}),
+                                   tests::flipped(tests::box({1, 1, 1}, {9, 9, 9})));
+    nested = tests::joined(nested, tests::box({4, 4, 4}, {6, 6, 6}));
+    const Repaired result = repaired(nested);
+    EXPECT_EQ(result.report.shells, 3U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1000 - 512 + 8, 1e-9);
+}
+
+TEST(Repair, WhereSensesMeanNothingShellsAlternate) {
+    TriMesh nested =
+        tests::joined(tests::box({0, 0, 0}, {10, 10, 10}), tests::box({1, 1, 1}, {9, 9, 9}));
+    std::swap(nested.triangles[3][0], nested.triangles[3][1]);
+    EXPECT_NEAR(repaired(nested).report.volume_after_mm3, 1000 - 512, 1e-9);
+}
+
+TEST(Repair, BoxesThatShareAnEdgeAreCutApartThere) {
+    const Repaired result =
+        repaired(tests::joined(tests::box({0, 0, 0}, {1, 1, 1}), tests::box({1, 1, 0}, {2, 2, 1})));
+    EXPECT_NEAR(result.report.volume_after_mm3, 2, 1e-12);
+    EXPECT_EQ(result.report.shells, 2U);
+}
+
+TEST(Repair, BoxesThatShareAWholeFaceBecomeOne) {
+    const Repaired result = repaired(tests::joined(
+        tests::box({0, 0, 0}, {1, 1, 1}), tests::flipped(tests::box({2, 1, 1}, {1, 0, 0}))));
+    EXPECT_NEAR(result.report.volume_after_mm3, 2, 1e-12);
+}
+
+TEST(Repair, NothingIsEmpty) {
+    EXPECT_EQ(repair({}, {}, decomp::Run{}).error().code, "repair.empty");
+}
+
+}  // namespace
