@@ -16,10 +16,11 @@ namespace {
 
 using polygon::Paths;
 
-constexpr int kDirections = 36;        // 5 degrees apart
-constexpr double kReachMm = 0.5;       // how far beyond a line's end its rest may begin
-constexpr double kRestWidthMm = 1.2;   // how far a bridge goes on over its rests
-constexpr double kLeastAreaMm2 = 0.5;  // smaller patches are carried by their neighbours
+constexpr int kDirections = 36;         // 5 degrees apart
+constexpr double kReachMm = 0.5;        // how far beyond a line's end its rest may begin
+constexpr double kRestWidthMm = 1.2;    // how far a bridge goes on over its rests
+constexpr double kMostUnrested = 0.05;  // of a patch's area, for a bridge that carries itself
+constexpr double kLeastAreaMm2 = 0.5;   // smaller patches are carried by their neighbours
 
 /// How bad a direction is: length of lines without a rest at both ends, then the longest span; mm,
 /// on a grid of 0.01 mm such that rounding does not choose.
@@ -66,8 +67,13 @@ std::vector<BridgeArea> find_bridges(const Paths& inside, const Paths& below, do
                 best = i;
             }
         }
-        out.push_back({polygon::intersect(polygon::offset(patch, kRestWidthMm), inside),
-                       decomp::Angle::degrees(180.0 * best / kDirections)});
+        BridgeArea& bridge = out.emplace_back();
+        bridge.area = polygon::intersect(polygon::offset(patch, kRestWidthMm), inside);
+        bridge.direction = decomp::Angle::degrees(180.0 * best / kDirections);
+        bridge.air = patch;
+        bridge.span_mm = static_cast<double>(least.second) / 100;
+        bridge.rests =
+            static_cast<double>(least.first) / 100 < kMostUnrested * polygon::area_mm2(patch);
     }
     return out;
 }

@@ -13,6 +13,9 @@ namespace cam::fdm {
 struct BridgeArea {
     polygon::Paths area;  ///< with a strip on what it rests on
     decomp::Angle direction;
+    polygon::Paths air;  ///< the part of it with nothing below
+    double span_mm = 0;  ///< longest way over air of a line that rests at both ends
+    bool rests = false;  ///< practically all lines do
 };
 
 /// Finds the patches of `inside` that have nothing of `below` under them and are wider than a bead,

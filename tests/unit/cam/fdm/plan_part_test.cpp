@@ -109,6 +109,29 @@ TEST(PlanPart, APortalIsBridgedAcrossItsOpening) {
     EXPECT_TRUE(found);
 }
 
+TEST(PlanPart, TheBrimComesFirstFromOutsideInAndTouchesThePart) {
+    auto brimmed = setup();
+    brimmed.machine.process.brim_width_mm = 3;
+    const auto stack = plan_part(tests::box({-5, -5, 0}, {5, 5, 2}), brimmed, {});
+    ASSERT_TRUE(stack);
+    const auto& beads = stack->layers[0].beads;
+    double last = 100;
+    std::size_t loops = 0;
+    for (; beads.at(loops).feature == Feature::Brim; ++loops) {
+        double reach = 0;
+        for (const auto& p : beads[loops].points) {
+            reach = std::max(reach, p.x());
+        }
+        EXPECT_LT(reach, last);
+        last = reach;
+    }
+    EXPECT_EQ(loops, 6U);
+    EXPECT_NEAR(last, 5 + 0.25, 1e-3);
+    for (const auto& bead : stack->layers[1].beads) {
+        EXPECT_NE(bead.feature, Feature::Brim);
+    }
+}
+
 TEST(PlanPart, BeadsStayInsideThePart) {
     const auto stack = plan_part(tests::box({-10, -10, 0}, {10, 10, 5}), setup(), {});
     ASSERT_TRUE(stack);

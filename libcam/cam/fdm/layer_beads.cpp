@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/fdm/layer_beads.h"
+
+#include "cam/fdm/infill.h"
+#include "cam/fdm/order.h"
+#include "cam/polygon/boolean.h"
+#include "cam/polygon/offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace cam::fdm {
+
+namespace {
+
+using decomp::Angle;
+using decomp::Speed;
+using path::Bead;
+using path::Feature;
+using polygon::Paths;
+using Process = profile::FdmMachine::Process;
+
+constexpr double kSolidLinkSpacings = 3;    // solid lines are linked over at most so many spacings
+constexpr double kSparseLinkSpacings = 4;   // sparse lines likewise, of their own spacing
+constexpr double kInterfaceSpacings = 1.5;  // lines of support under the part, by bead spacings
+constexpr double kOutputToleranceMm = 0.004;
+
+Speed speed_of(Feature feature, const Process& process) {
+    switch (feature) {
+        case Feature::OuterWall:
+            return process.outer_wall_speed;
+        case Feature::InnerWall:
+            return process.inner_wall_speed;
+        case Feature::SparseInfill:
+            return process.infill_speed;
+        case Feature::Bridge:
+            return process.bridge_speed;
+        case Feature::Support:
+        case Feature::SupportInterface:
+            return process.support_speed;
+        default:
+            return process.solid_speed;
+    }
+}
+
+Line closed_line(const polygon::Path& loop) {
+    Line points;
+    points.reserve(loop.size() + 1);
+    for (const auto& p : loop) {
+        points.push_back(polygon::to_mm(p));
+    }
+    points.push_back(points.front());
+    return points;
+}
+
+/// Only the outer loops: holes filled in.
+Paths filled(const Paths& region) {
+    Paths outers;
+    for (const auto& loop : region) {
+        if (polygon::area_mm2(loop) > 0) {
+            outers.push_back(loop);
+        }
+    }
+    return polygon::region_of(outers);
+}
+
+class LayerBeads {
+  public:
+    LayerBeads(const PartLayer& layer, std::size_t index, const Process& process)
+        : layer_(layer), index_(index), process_(process) {}
+
+    std::vector<Bead> beads() {
+        if (index_ == 0) {
+            add_brim();
+        }
+        add_support();
+        add_part();
+        return std::move(out_);
+    }
+
+  private:
+    Bead bead(Feature feature, Line points) const {
+        Bead out;
+        out.feature = feature;
+        out.points = std::move(points);
+        out.width_mm = layer_.bead.width_mm;
+        out.height_mm = layer_.bead.height_mm;
+        out.speed = index_ == 0 ? process_.first_layer_speed : speed_of(feature, process_);
+        return out;
+    }
+
+    Eigen::Vector2d at() const {
+        return out_.empty() ? Eigen::Vector2d(0, 0) : out_.back().points.back();
+    }
+
+    void append(std::vector<Bead> beads) {
+        std::move(beads.begin(), beads.end(), std::back_inserter(out_));
+    }
+
+    // === round the part
+
+    void add_brim() {
+        const double spacing = layer_.bead.spacing_mm();
+        const int loops = static_cast<int>(std::floor(process_.brim_width_mm / spacing));
+        if (loops <= 0) {
+            return;
+        }
+        const Paths foot = filled(polygon::closed(
+            polygon::unite(layer_.slice,
+                           polygon::unite(layer_.support.body, layer_.support.interface)),
+            process_.support_gap_xy_mm));
+        for (int i = loops - 1; i >= 0; --i) {
+            const double distance = layer_.bead.width_mm / 2 + i * spacing;
+            for (const auto& loop : polygon::simplified(
+                     polygon::offset(foot, distance, polygon::Join::Round), kOutputToleranceMm)) {
+                out_.push_back(bead(Feature::Brim, closed_line(loop)));
+            }
+        }
+    }
+
+    void add_support() {
+        std::vector<Bead> beads;
+        // The first layer is denser, so that the columns hold on to the bed.
+        const double spacing = process_.support_spacing_mm / (index_ == 0 ? 2 : 1);
+        add_support_lines(Feature::Support, layer_.support.body, {spacing, Angle(), 2 * spacing},
+                          beads);
+        const double dense = kInterfaceSpacings * layer_.bead.spacing_mm();
+        add_support_lines(Feature::SupportInterface, layer_.support.interface,
+                          {dense, Angle::degrees(90), 3 * dense}, beads);
+        append(ordered_by_travel(std::move(beads), at()));
+    }
+
+    /// Zigzags; pieces too narrow for lines to stand on get an outline as well.
+    void add_support_lines(Feature feature, const Paths& area, const FillPattern& pattern,
+                           std::vector<Bead>& beads) const {
+        for (const auto& island : polygon::islands(area)) {
+            const Paths room = polygon::offset(island.loops(), -layer_.bead.width_mm / 2);
+            for (Line& line : fill_with_lines(room, pattern)) {
+                beads.push_back(bead(feature, std::move(line)));
+            }
+            if (polygon::offset(room, -pattern.spacing_mm).empty()) {
+                for (const auto& loop : polygon::simplified(room, kOutputToleranceMm)) {
+                    beads.push_back(bead(feature, closed_line(loop)));
+                }
+            }
+        }
+    }
+
+    // === the part
+
+    void add_part() {
+        islands_ = polygon::islands(layer_.slice);
+        for (const auto& island : islands_) {
+            island_boxes_.push_back(polygon::bounds(island.outer));
+        }
+        by_island_.resize(islands_.size());
+        add_walls();
+        add_solid();
+        add_bridges();
+        add_sparse();
+        append(ordered(std::move(by_island_), at()));
+    }
+
+    IslandBeads& island_of(const Eigen::Vector2d& p) {
+        const polygon::Point at = polygon::from_mm(p);
+        for (std::size_t i = 0; i + 1 < islands_.size(); ++i) {
+            if (polygon::touches(island_boxes_[i], {at, at}) &&
+                polygon::contains(islands_[i].loops(), at)) {
+                return by_island_[i];
+            }
+        }
+        return by_island_.back();
+    }
+
+    void add_walls() {
+        for (std::size_t depth = 0; depth < layer_.walls.loops.size(); ++depth) {
+            const Feature feature = depth == 0 ? Feature::OuterWall : Feature::InnerWall;
+            for (const auto& loop :
+                 polygon::simplified(layer_.walls.loops[depth], kOutputToleranceMm)) {
+                Line points = closed_line(loop);
+                IslandBeads& island = island_of(points.front());
+                (depth == 0 ? island.outer_walls : island.inner_walls)
+                    .push_back(bead(feature, std::move(points)));
+            }
+        }
+    }
+
+    void add_fill(Feature feature, const Paths& area, const FillPattern& pattern) {
+        // Line centres keep half a spacing from the area's edge. Walls leave a gap at the surface
+        // by their round flanks; the fill makes up for it by going that much further.
+        const double inset = (layer_.bead.spacing_mm() - layer_.bead.rounding_mm()) / 2;
+        for (Line& line : fill_with_lines(polygon::offset(area, -inset), pattern)) {
+            IslandBeads& island = island_of(line.front());
+            island.fill.push_back(bead(feature, std::move(line)));
+        }
+    }
+
+    Feature solid_feature(const Paths& area) const {
+        const double half = polygon::area_mm2(area) / 2;
+        const auto share = [&](const Paths& open) {
+            return open.empty() ? 0 : polygon::area_mm2(polygon::intersect(area, open));
+        };
+        if (share(layer_.interior.open_to_top) > half) {
+            return Feature::TopSkin;
+        }
+        return index_ == 0 || share(layer_.interior.open_to_bottom) > half ? Feature::BottomSkin
+                                                                           : Feature::SolidInfill;
+    }
+
+    /// The lines of one layer lie across those of the next.
+    Angle layer_angle() const {
+        return index_ % 2 == 0
+                   ? process_.infill_angle
+                   : Angle::radians(process_.infill_angle.radians() + Angle::degrees(90).radians());
+    }
+
+    void add_solid() {
+        const double spacing = layer_.bead.spacing_mm();
+        for (const auto& island : polygon::islands(layer_.interior.solid)) {
+            const Paths area = island.loops();
+            add_fill(solid_feature(area), area,
+                     {spacing, layer_angle(), kSolidLinkSpacings * spacing});
+        }
+    }
+
+    void add_bridges() {
+        const double spacing = layer_.bead.spacing_mm();
+        for (const BridgeArea& bridge : layer_.interior.bridges) {
+            add_fill(Feature::Bridge, bridge.area,
+                     {spacing, bridge.direction, kSolidLinkSpacings * spacing});
+        }
+    }
+
+    void add_sparse() {
+        if (process_.infill_density <= 0 || layer_.interior.sparse.empty()) {
+            return;
+        }
+        const double spacing = layer_.bead.spacing_mm() / process_.infill_density;
+        add_fill(Feature::SparseInfill, layer_.interior.sparse,
+                 {spacing, layer_angle(), kSparseLinkSpacings * spacing});
+    }
+
+    const PartLayer& layer_;
+    std::size_t index_;
+    const Process& process_;
+    std::vector<polygon::Island> islands_;
+    std::vector<polygon::Box> island_boxes_;
+    std::vector<IslandBeads> by_island_;
+    std::vector<Bead> out_;
+};
+
+}  // namespace
+
+std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index, const Process& process) {
+    return LayerBeads(layer, index, process).beads();
+}
+
+}  // namespace cam::fdm

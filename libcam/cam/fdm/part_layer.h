@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cam/fdm/bead_size.h"
+#include "cam/fdm/skins.h"
+#include "cam/fdm/support.h"
+#include "cam/fdm/walls.h"
+#include "cam/polygon/polygon.h"
+
+namespace cam::fdm {
+
+/// One layer on its way from slice to beads: each step fills in one more field.
+struct PartLayer {
+    double top_mm = 0;
+    BeadSize bead;
+    polygon::Paths slice;
+    Walls walls;
+    Interior interior;
+    SupportAreas support;
+};
+
+}  // namespace cam::fdm
