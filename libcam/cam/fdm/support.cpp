@@ -37,10 +37,11 @@ struct Overhang {
     Paths islands;   ///< hangs on nothing
 };
 
+/// @param step_mm  how far a layer may reach beyond the one below; negative: as far as it likes
 Overhang overhang_of(const Paths& slice, const Paths& below, const Paths& carried, double step_mm) {
     Overhang out;
-    Paths beyond =
-        polygon::opened(polygon::subtract(slice, polygon::offset(below, step_mm)), kNoiseMm);
+    const Paths beyond = polygon::opened(
+        polygon::subtract(slice, polygon::offset(below, std::max(step_mm, 0.0))), kNoiseMm);
     if (beyond.empty()) {
         return out;
     }
@@ -50,18 +51,18 @@ Overhang overhang_of(const Paths& slice, const Paths& below, const Paths& carrie
             out.islands.insert(out.islands.end(), loops.begin(), loops.end());
         }
     }
-    out.attached = polygon::subtract(polygon::subtract(beyond, out.islands), carried);
+    if (step_mm >= 0) {
+        out.attached = polygon::subtract(polygon::subtract(beyond, out.islands), carried);
+    }
     return out;
 }
 
 std::vector<Overhang> overhangs(const std::vector<Paths>& slices, const std::vector<Paths>& carried,
                                 const SupportOptions& options, const decomp::Run& run) {
-    const double tangent = std::tan(options.angle.radians());
     // A bead whose middle still lies on the layer below holds by itself.
     const double least = options.line_width_mm / 2;
-    constexpr double kAnyStepMm = 1000;
-    const double step =
-        tangent > 1e-3 ? std::max(options.layer_height_mm / tangent, least) : kAnyStepMm;
+    const double tangent = std::tan(options.angle.radians());
+    const double step = tangent > 0 ? std::max(options.layer_height_mm / tangent, least) : -1;
     std::vector<Overhang> out(slices.size());
     decomp::for_each_index(run, slices.size(), [&](std::size_t i) {
         if (i > 0 && !slices[i].empty()) {
