@@ -36,6 +36,14 @@ void append_box(decomp::mesh::TriMesh& mesh, const std::array<Eigen::Vector2d, 2
     mesh.triangles.push_back({base + 4, base + 6, base + 7});
 }
 
+void append(decomp::mesh::TriMesh& mesh, const path::Bead& bead, double top_mm) {
+    for (std::size_t p = 0; p + 1 < bead.points.size(); ++p) {
+        if ((bead.points[p + 1] - bead.points[p]).norm() > kLeastSegmentMm) {
+            append_box(mesh, {bead.points[p], bead.points[p + 1]}, bead, top_mm);
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<BeadMesh> bead_meshes(const path::LayerStack& stack, std::size_t first,
@@ -43,16 +51,11 @@ std::vector<BeadMesh> bead_meshes(const path::LayerStack& stack, std::size_t fir
     std::map<path::Feature, decomp::mesh::TriMesh> by_feature;
     for (std::size_t i = first; i < std::min(last, stack.layers.size()); ++i) {
         for (const auto& bead : stack.layers[i].beads) {
-            auto& mesh = by_feature[bead.feature];
-            for (std::size_t p = 0; p + 1 < bead.points.size(); ++p) {
-                if ((bead.points[p + 1] - bead.points[p]).norm() > kLeastSegmentMm) {
-                    append_box(mesh, {bead.points[p], bead.points[p + 1]}, bead,
-                               stack.layers[i].z_mm);
-                }
-            }
+            append(by_feature[bead.feature], bead, stack.layers[i].z_mm);
         }
     }
     std::vector<BeadMesh> meshes;
+    meshes.reserve(by_feature.size());
     for (auto& [feature, mesh] : by_feature) {
         meshes.push_back({feature, std::move(mesh)});
     }

@@ -87,25 +87,27 @@ void fill(Image& image, const Square& square, Rgb colour) {
     }
 }
 
+void draw(Image& image, const Glyph& glyph, const Lettering& at) {
+    for (int dot = 0; dot < kDotsAcross * kLetterHeightPx; ++dot) {
+        const int row = dot / kDotsAcross;
+        const int column = dot % kDotsAcross;
+        const int bits = glyph.rows.at(static_cast<std::size_t>(row)) >> (kDotsAcross - 1 - column);
+        if ((bits & 1) != 0) {
+            fill(image, {at.left_px + column * at.size, at.top_px + row * at.size, at.size},
+                 at.colour);
+        }
+    }
+}
+
 }  // namespace
 
 void write(Image& image, std::string_view text, const Lettering& lettering) {
-    int left = lettering.left_px;
+    Lettering letter_at = lettering;
     for (const char letter : text) {
         if (const Glyph* const glyph = glyph_of(letter); glyph != nullptr) {
-            for (int dot = 0; dot < kDotsAcross * kLetterHeightPx; ++dot) {
-                const int row = dot / kDotsAcross;
-                const int column = dot % kDotsAcross;
-                if (((glyph->rows.at(static_cast<std::size_t>(row)) >> (kDotsAcross - 1 - column)) &
-                     1) != 0) {
-                    fill(image,
-                         {left + column * lettering.size, lettering.top_px + row * lettering.size,
-                          lettering.size},
-                         lettering.colour);
-                }
-            }
+            draw(image, *glyph, letter_at);
         }
-        left += kLetterWidthPx * lettering.size;
+        letter_at.left_px += kLetterWidthPx * lettering.size;
     }
 }
 

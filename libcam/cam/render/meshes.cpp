@@ -127,7 +127,7 @@ class Picture {
         const Item& item = items_[which];
         const Vector3f* corner = &normals_[which][3 * std::size_t{hit.triangle}];
         const Vector3f toward = camera_.toward_viewer.cast<float>();
-        const auto facing = [&](Vector3f n) { return n.dot(toward) < 0 ? Vector3f(-n) : n; };
+        const auto facing = [&](const Vector3f& n) { return n.dot(toward) < 0 ? Vector3f(-n) : n; };
         const auto& mesh = *item.mesh;
         const auto& t = mesh.triangles[hit.triangle];
         const Eigen::Vector3d flat = (mesh.points[t[1]] - mesh.points[t[0]])

@@ -60,22 +60,21 @@ std::vector<Eigen::Vector3f> corner_normals(const decomp::mesh::TriMesh& mesh) {
     }
     const Fans fans = fans_of(mesh);
     std::vector<Eigen::Vector3f> normals(3 * count);
+    const auto smooth_at = [&](std::size_t t, std::uint32_t vertex) {
+        const std::size_t begin = fans.first[vertex];
+        const std::size_t end = fans.first[vertex + 1];
+        Eigen::Vector3d sum = weighted[t];
+        for (std::size_t i = begin; i < end && end - begin <= kGreatestFan; ++i) {
+            const std::size_t other = fans.list[i];
+            if (other != t && unit[other].dot(unit[t]) > kCreaseCosine) {
+                sum += weighted[other];
+            }
+        }
+        return sum.stableNormalized().cast<float>().eval();
+    };
     for (std::size_t t = 0; t < count; ++t) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const auto vertex = mesh.triangles[t].at(c);
-            const std::size_t begin = fans.first[vertex];
-            const std::size_t end = fans.first[vertex + 1];
-            Eigen::Vector3d sum = weighted[t];
-            if (end - begin <= kGreatestFan) {
-                sum.setZero();
-                for (std::size_t i = begin; i < end; ++i) {
-                    const std::size_t other = fans.list[i];
-                    if (other == t || unit[other].dot(unit[t]) > kCreaseCosine) {
-                        sum += weighted[other];
-                    }
-                }
-            }
-            normals[3 * t + c] = sum.stableNormalized().cast<float>();
+            normals[3 * t + c] = smooth_at(t, mesh.triangles[t].at(c));
         }
     }
     return normals;
@@ -97,7 +96,7 @@ double light_on(const Eigen::Vector3f& normal, const Camera& camera, double open
 
 Eigen::Vector3f sky_direction(const Eigen::Vector3f& normal, int index, double turn) {
     // A Hammersley set: equal steps along one side of the square, bits reversed along the other.
-    const unsigned bits = static_cast<unsigned>(index);
+    const auto bits = static_cast<unsigned>(index);
     const unsigned reversed =
         ((bits & 1U) << 3U) | ((bits & 2U) << 1U) | ((bits & 4U) >> 1U) | ((bits & 8U) >> 3U);
     const double along = (index + 0.5) / kSkyDirections;
