@@ -19,10 +19,11 @@ struct PlacedPart {
     decomp::mesh::TriMesh mesh;
 };
 
-/// What is expected of the material before the first bead, and where.
+/// How a program is looked at.
 struct Options {
-    bool strangers_program = false;  ///< written by another slicer: unknown commands are notes, not faults
-    double pixel_mm = 0.1;
+    /// Written by another slicer: unknown commands and forbidden words are notes, not faults.
+    bool strangers_program = false;
+    double pixel_mm = 0.1;  ///< of the rasters, 0.05 .. 0.2
 };
 
 /// One thing that is wrong, with the line of the program.
@@ -49,6 +50,10 @@ struct Figures {
     int moves_below_printed = 0;
     int moves_outside_chamber = 0;
     double blob_mm3 = 0;                 ///< extruded at a standstill, retractions made up for
+    double declared_mm3 = 0;             ///< beads that the program calls support, skirt, brim or prime
+    double air_percent = 0;              ///< of the part's bead area: over nothing and beyond the layer below
+    double internal_bridge_percent = 0;  ///< of the part's bead area: over nothing, inside the layer below
+    int solid_layers = 0;
 };
 
 /// The verdict on one program.
@@ -78,8 +83,10 @@ class CheckedProgram {
 };
 
 /// Replays a program and compares what it deposits with the parts. Faults are no error here: read `passed()`.
-/// Cost: about a second per megabyte of G-code at 0.1 mm pixels; O(pixels of one layer) memory.
-/// @error proof.unreadable (a line that is no G-code, with its number), run.cancelled
+/// Faults are in the order of their lines and do not depend on run.jobs. Cost: see README.md; memory 40 bytes a bead
+/// and the pixels of a few layers.
+/// @error proof.unreadable (a line that is no G-code, with its number), proof.bad_part (a mesh that is not finite or far
+/// from the chamber), run.cancelled
 [[nodiscard]] decomp::Result<Proof> examine(std::string_view program, const std::vector<PlacedPart>& parts,
                                             const profile::FdmSetup& setup, const Options& options,
                                             const decomp::Run& run);

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/verify/examine_level.h"
+
+#include "cam/verify/islands.h"
+#include "cam/verify/limits.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace cam::verify {
+namespace {
+
+constexpr double kReachMm = 1.2;      ///< how far down a bead looks for what carries it
+constexpr double kSampleMm = 0.3;     ///< between two looks along a bead
+constexpr int kMostSamples = 64;
+constexpr double kMarginMm = 1.0;
+
+/// How a bead lies: height of material under it up to the nozzle.
+struct Lie {
+    double height = 0;  ///< 0: nothing beneath that it could touch
+    double area = 0;
+    double length = 0;
+};
+
+class LevelExam {
+  public:
+    LevelExam(const Scene& scene, std::size_t index, const std::vector<Bitmap>& below)
+        : scene_(scene), level_(scene.levels->levels[index]), below_(below), index_(index) {}
+
+    LevelReport run();
+
+  private:
+    [[nodiscard]] const Bead& bead(std::uint32_t k) const { return (*scene_.beads)[scene_.levels->order[k]]; }
+
+    [[nodiscard]] double gap_at(double x, double y) const;
+    void measure_lies();
+    void make_window();
+    void draw_beads();
+    void slice_parts();
+    void check_skin();
+    void check_outside();
+    void check_fill();
+    void check_support();
+    template <class Body>
+    void rows_of(std::uint32_t k, const Body& body) const;
+    [[nodiscard]] double mm2(std::size_t pixels) const {
+        return static_cast<double>(pixels) * scene_.pixel_mm * scene_.pixel_mm;
+    }
+
+    const Scene& scene_;
+    const Level& level_;
+    const std::vector<Bitmap>& below_;
+    std::size_t index_;
+    LevelReport report_;
+    std::vector<Lie> lies_;
+    std::vector<Section> sections_;
+    Window window_;
+    Bitmap part_;     ///< undeclared material
+    Bitmap all_;
+    Bitmap inside_;   ///< union of the sections
+};
+
+/// Distance down to what lies beneath, from the rough deposits; kReachMm when there is nothing.
+double LevelExam::gap_at(double x, double y) const {
+    const int i = static_cast<int>(std::floor(x / scene_.pixel_mm));
+    const int j = static_cast<int>(std::floor(y / scene_.pixel_mm));
+    for (std::size_t k = index_; k-- > 0;) {
+        const double gap = level_.z - scene_.levels->levels[k].z;
+        if (gap > kReachMm) {
+            break;
+        }
+        if (below_[k].get(i, j)) {
+            return gap;
+        }
+    }
+    return std::min(level_.z, kReachMm);
+}
+
+void LevelExam::measure_lies() {
+    lies_.resize(level_.last - level_.first);
+    double sum = 0;
+    double weight = 0;
+    std::vector<std::pair<double, double>> heights;
+    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+        const Bead& b = bead(k);
+        Lie& lie = lies_[k - level_.first];
+        lie.length = bead_length(b);
+        lie.area = b.volume_mm3 / lie.length;
+        const double strand = strand_diameter(lie.area);
+        const int samples = std::clamp(static_cast<int>(lie.length / kSampleMm), 1, kMostSamples);
+        double touched = 0;
+        int touches = 0;
+        for (int s = 0; s < samples; ++s) {
+            const double t = (s + 0.5) / samples;
+            const double gap = gap_at(b.x0 + t * (b.x1 - b.x0), b.y0 + t * (b.y1 - b.y0));
+            if (gap <= strand * 1.05) {
+                touched += gap;
+                ++touches;
+            }
+        }
+        lie.height = touches > 0 ? touched / touches : 0;
+        if (b.role == Role::Part) {
+            report_.part_mm3 += b.volume_mm3;
+            if (touches > 0) {
+                heights.emplace_back(lie.height, lie.length);
+                weight += lie.length;
+            }
+        }
+    }
+    // The median by length: a few beads over a seam or a support must not decide.
+    std::sort(heights.begin(), heights.end());
+    report_.height_mm = std::min(level_.step_part, kReachMm);
+    for (const auto& [height, length] : heights) {
+        sum += length;
+        if (sum >= weight / 2) {
+            report_.height_mm = height;
+            break;
+        }
+    }
+}
+
+template <class Body>
+void LevelExam::rows_of(std::uint32_t k, const Body& body) const {
+    const Bead& b = bead(k);
+    const Lie& lie = lies_[k - level_.first];
+    const double height = lie.height > 0 ? lie.height : strand_diameter(lie.area);
+    for_capsule_rows(b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2, scene_.pixel_mm, window_.bottom,
+                     window_.bottom + window_.rows - 1, body);
+}
+
+void LevelExam::make_window() {
+    window_ = window_of(*scene_.beads, *scene_.levels, index_, scene_.pixel_mm);
+    int i0 = window_.left;
+    int j0 = window_.bottom;
+    int i1 = window_.left + 64 * window_.words - 1;
+    int j1 = window_.bottom + window_.rows - 1;
+    for (const Section& section : sections_) {
+        if (section.bounds.isEmpty()) {
+            continue;
+        }
+        const auto pixel = [&](double at) { return static_cast<int>(std::floor(at / scene_.pixel_mm)); };
+        i0 = std::min(i0, pixel(section.bounds.min().x() - kMarginMm));
+        j0 = std::min(j0, pixel(section.bounds.min().y() - kMarginMm));
+        i1 = std::max(i1, pixel(section.bounds.max().x() + kMarginMm));
+        j1 = std::max(j1, pixel(section.bounds.max().y() + kMarginMm));
+    }
+    window_ = Window::around(i0, j0, i1, j1);
+}
+
+void LevelExam::draw_beads() {
+    part_ = Bitmap(window_);
+    Bitmap other(window_);
+    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+        Bitmap& target = bead(k).role == Role::Part ? part_ : other;
+        rows_of(k, [&](int j, int i0, int i1) { target.fill(j, i0, i1); });
+    }
+    all_ = part_;
+    all_.unite(other);
+    report_.bead_mm2 = mm2(part_.count());
+}
+
+void LevelExam::slice_parts() {
+    inside_ = Bitmap(window_);
+    report_.parts.resize(sections_.size());
+    for (std::size_t p = 0; p < sections_.size(); ++p) {
+        const Section& section = sections_[p];
+        if (section.edges.empty()) {
+            continue;
+        }
+        const auto pixel = [&](double at) { return static_cast<int>(std::floor(at / scene_.pixel_mm)); };
+        Bitmap alone(Window::around(pixel(section.bounds.min().x()), pixel(section.bounds.min().y()),
+                                    pixel(section.bounds.max().x()), pixel(section.bounds.max().y())));
+        fill_section(section, scene_.pixel_mm, alone);
+        std::size_t covered = 0;
+        const int column = (alone.window().left - window_.left) / 64;
+        for (int row = 0; row < alone.window().rows; ++row) {
+            const std::uint64_t* mine = alone.row_words(row);
+            const std::uint64_t* beads = part_.row_words(row + alone.window().bottom - window_.bottom) + column;
+            for (int w = 0; w < alone.window().words; ++w) {
+                covered += static_cast<std::size_t>(std::popcount(mine[w] & beads[w]));
+            }
+        }
+        const std::size_t pixels = alone.count();
+        report_.parts[p].section_mm2 = mm2(pixels);
+        report_.parts[p].covered_share = pixels > 0 ? static_cast<double>(covered) / static_cast<double>(pixels) : 0;
+        // A section without its material is a missing layer, and judged as one.
+        if (report_.parts[p].covered_share >= limits::kPresence) {
+            inside_.unite(alone);
+        } else {
+            sections_[p].edges.clear();
+        }
+    }
+    report_.section_mm2 = mm2(inside_.count());
+}
+
+/// Skin that a bead of the nozzle's width could have covered, 0.1 .. 0.35 mm inside the surface.
+void LevelExam::check_skin() {
+    Bitmap outer(window_);
+    Bitmap inner(window_);
+    for (const Section& section : sections_) {
+        draw_outline(section, limits::kRingOuterMm, scene_.pixel_mm, outer);
+        draw_outline(section, limits::kRingInnerMm, scene_.pixel_mm, inner);
+    }
+    // What a disc of 0.2 mm radius inside the part can reach: sharper tips cannot be printed.
+    const int radius = static_cast<int>(std::lround(0.2 / scene_.pixel_mm));
+    Bitmap core(window_);
+    for (const Section& section : sections_) {
+        draw_outline(section, 0.2, scene_.pixel_mm, core);
+    }
+    for (std::size_t w = 0; w < core.words().size(); ++w) {
+        core.words()[w] = inside_.words()[w] & ~core.words()[w];
+    }
+    const Bitmap reachable = dilated(core, radius);
+    std::size_t ring = 0;
+    std::size_t uncovered = 0;
+    for (std::size_t w = 0; w < inside_.words().size(); ++w) {
+        const std::uint64_t skin =
+            inside_.words()[w] & inner.words()[w] & ~outer.words()[w] & reachable.words()[w];
+        ring += static_cast<std::size_t>(std::popcount(skin));
+        uncovered += static_cast<std::size_t>(std::popcount(skin & ~part_.words()[w]));
+    }
+    report_.ring_mm2 = mm2(ring);
+    report_.uncovered_mm2 = mm2(uncovered);
+}
+
+void LevelExam::check_outside() {
+    Bitmap allowed = inside_;
+    for (const Section& section : sections_) {
+        draw_outline(section, limits::kOutsideMm, scene_.pixel_mm, allowed);
+    }
+    std::size_t outside = 0;
+    for (std::size_t w = 0; w < allowed.words().size(); ++w) {
+        outside += static_cast<std::size_t>(std::popcount(part_.words()[w] & ~allowed.words()[w]));
+    }
+    report_.outside_mm3 = mm2(outside) * report_.height_mm;
+    if (report_.outside_mm3 == 0) {
+        return;
+    }
+    for (std::uint32_t k = level_.first; k < level_.last && report_.outside_line == 0; ++k) {
+        if (bead(k).role != Role::Part) {
+            continue;
+        }
+        int pixels = 0;
+        rows_of(k, [&](int j, int i0, int i1) { pixels += std::max(0, i1 - i0 + 1) - allowed.count(j, i0, i1); });
+        if (mm2(static_cast<std::size_t>(std::max(0, pixels))) >= 0.05) {
+            report_.outside_line = bead(k).line;
+        }
+    }
+}
+
+void LevelExam::check_fill() {
+    std::size_t covered = 0;
+    for (std::size_t w = 0; w < inside_.words().size(); ++w) {
+        covered += static_cast<std::size_t>(std::popcount(inside_.words()[w] & part_.words()[w]));
+    }
+    const double share = report_.section_mm2 > 0 ? mm2(covered) / report_.section_mm2 : 0;
+    // Bridges are thicker than their layer; they say nothing about the flow.
+    const double over_nothing = report_.internal_mm2 + report_.air_mm2;
+    if (share >= limits::kSolidCoverage && report_.section_mm2 >= limits::kLeastSolidMm2 &&
+        over_nothing <= limits::kBridgeShare * report_.bead_mm2) {
+        report_.fill = report_.part_mm3 / (report_.section_mm2 * report_.height_mm);
+    }
+}
+
+void LevelExam::check_support() {
+    const double contact = report_.height_mm * (1 + limits::kContactLayers) + limits::kContactSlackMm;
+    const double touching = report_.height_mm + limits::kContactSlackMm;
+    Bitmap carried(window_);
+    Bitmap touched(window_);
+    for (std::size_t k = index_; k-- > 0;) {
+        const double gap = level_.z - scene_.levels->levels[k].z;
+        if (gap > contact) {
+            break;
+        }
+        carried.unite(below_[k]);
+        if (gap <= touching) {
+            touched.unite(below_[k]);
+        }
+    }
+    if (level_.z <= touching) {
+        return;  // on the bed
+    }
+    std::size_t air = 0;
+    for (std::size_t w = 0; w < all_.words().size(); ++w) {
+        air += static_cast<std::size_t>(std::popcount(part_.words()[w] & ~touched.words()[w]));
+        carried.words()[w] &= all_.words()[w];
+    }
+    if (air > 0) {
+        Bitmap previous(window_);
+        for (const Slicer& slicer : *scene_.slicers) {
+            fill_section(slicer.at(level_.z - 1.5 * report_.height_mm), scene_.pixel_mm, previous);
+        }
+        std::size_t internal = 0;
+        for (std::size_t w = 0; w < all_.words().size(); ++w) {
+            internal += static_cast<std::size_t>(
+                std::popcount(part_.words()[w] & ~touched.words()[w] & previous.words()[w]));
+        }
+        report_.internal_mm2 = mm2(internal);
+        report_.air_mm2 = mm2(air - internal);
+    }
+    if (level_.z <= contact) {
+        return;  // over the bed by no more than the gap that is allowed
+    }
+    Bitmap floating(window_);
+    const std::vector<Island> islands = find_islands(all_, carried, floating);
+    for (const Island& island : islands) {
+        if (mm2(island.pixels) >= limits::kIslandMm2) {
+            ++report_.islands;
+            report_.island_mm2 += mm2(island.pixels);
+        }
+    }
+    for (std::uint32_t k = level_.first; report_.islands > 0 && k < level_.last; ++k) {
+        int pixels = 0;
+        rows_of(k, [&](int j, int i0, int i1) { pixels += floating.count(j, i0, i1); });
+        if (pixels > 3) {
+            report_.island_line = bead(k).line;
+            break;
+        }
+    }
+}
+
+LevelReport LevelExam::run() {
+    measure_lies();
+    for (const Slicer& slicer : *scene_.slicers) {
+        sections_.push_back(slicer.at(level_.z - report_.height_mm / 2));
+    }
+    make_window();
+    draw_beads();
+    slice_parts();
+    if (level_.layer >= 0) {
+        check_skin();
+        check_outside();
+    }
+    check_support();
+    if (level_.layer >= 0) {
+        check_fill();
+    }
+    return report_;
+}
+
+}  // namespace
+
+LevelReport examine_level(const Scene& scene, std::size_t level, const std::vector<Bitmap>& below) {
+    return LevelExam(scene, level, below).run();
+}
+
+}  // namespace cam::verify

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cam/verify/bitmap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cam::verify {
+
+/// A connected patch of a level that rests on nothing.
+struct Island {
+    std::size_t pixels = 0;
+    int i = 0;  ///< one of its pixels: the first of its lowest row
+    int j = 0;
+};
+
+/// Connected components (by edges and corners) of `deposit` without a pixel in `carried`, with their pixels drawn into
+/// `floating`. O(runs).
+[[nodiscard]] std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, Bitmap& floating);
+
+}  // namespace cam::verify

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/verify/verify.h"
+
+#include "cam/verify/examine_level.h"
+#include "cam/verify/fault_list.h"
+#include "cam/verify/judge_levels.h"
+#include "cam/verify/limits.h"
+#include "cam/verify/replay.h"
+#include "decomp/base/hash.h"
+#include "decomp/base/number.h"
+#include "decomp/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cam::verify {
+namespace {
+
+constexpr std::size_t kBatch = 16;
+constexpr double kReachMm = 1.3;  ///< rough deposits are kept that far down
+
+decomp::Status check_parts(const std::vector<PlacedPart>& parts, const profile::FdmSetup& setup) {
+    constexpr double kFarMm = 100;
+    for (const PlacedPart& part : parts) {
+        for (const auto& triangle : part.mesh.triangles) {
+            for (const std::uint32_t v : triangle) {
+                if (v >= part.mesh.points.size()) {
+                    return decomp::fail("proof.bad_part", "a triangle names a point that does not exist", part.id);
+                }
+            }
+        }
+        for (const Eigen::Vector3d& point : part.mesh.points) {
+            const auto& chamber = setup.machine.chamber;
+            if (!point.allFinite() || ((point - chamber.min_mm).array() < -kFarMm).any() ||
+                ((point - chamber.max_mm).array() > kFarMm).any()) {
+                return decomp::fail("proof.bad_part", "the part is not in the chamber", part.id,
+                                    "give its mesh in the machine's own coordinates");
+            }
+        }
+    }
+    return {};
+}
+
+/// Levels in batches from the bed up: a level needs the rough deposits of those below, and nothing else of them.
+decomp::Result<std::vector<LevelReport>> examine_levels(const Scene& scene, const decomp::Run& run) {
+    const std::size_t count = scene.levels->levels.size();
+    std::vector<LevelReport> reports(count);
+    std::vector<Bitmap> rough(count);
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < count; first += kBatch) {
+        if (run.cancelled()) {
+            return decomp::cancelled();
+        }
+        const std::size_t size = std::min(kBatch, count - first);
+        decomp::for_each_index(run, size, [&](std::size_t k) {
+            rough[first + k] = rough_deposit(*scene.beads, *scene.levels, first + k, scene.pixel_mm);
+        });
+        decomp::for_each_index(
+            run, size, [&](std::size_t k) { reports[first + k] = examine_level(scene, first + k, rough); });
+        while (kept < first + size &&
+               scene.levels->levels[kept].z < scene.levels->levels[first + size - 1].z - kReachMm) {
+            rough[kept++] = Bitmap();
+        }
+        run.progress("verify", static_cast<double>(first + size) / static_cast<double>(count));
+    }
+    if (run.cancelled()) {
+        return decomp::cancelled();
+    }
+    return reports;
+}
+
+}  // namespace
+
+decomp::Result<Proof> examine(std::string_view program, const std::vector<PlacedPart>& parts,
+                              const profile::FdmSetup& setup, const Options& options, const decomp::Run& run) {
+    if (auto good = check_parts(parts, setup); !good) {
+        return decomp::fail(good.error());
+    }
+    auto replayed = replay(program, setup, options, run);
+    if (!replayed) {
+        return decomp::fail(replayed.error());
+    }
+    const Levels levels = sort_levels(replayed->beads);
+    std::vector<Slicer> slicers;
+    std::vector<std::string> ids;
+    for (const PlacedPart& part : parts) {
+        slicers.emplace_back(part.mesh);
+        ids.push_back(part.id);
+    }
+    const Scene scene{&replayed->beads, &levels, &slicers, std::clamp(options.pixel_mm, 0.05, 0.2)};
+    auto reports = examine_levels(scene, run);
+    if (!reports) {
+        return decomp::fail(reports.error());
+    }
+    Proof proof;
+    FaultList faults;
+    for (Sighting& seen : replayed->sightings) {
+        faults.add({std::move(seen.code), seen.line, seen.z >= 0 ? levels.layer_at(seen.z) : -1, std::move(seen.text)});
+    }
+    Figures& figures = proof.figures;
+    figures.lines = replayed->lines;
+    figures.filament_mm = replayed->filament_mm;
+    figures.extruded_mm3 = replayed->extruded_mm3;
+    figures.max_flow_mm3_per_s = replayed->max_flow_mm3_per_s;
+    figures.blob_mm3 = replayed->blob_mm3;
+    figures.moves_below_printed = replayed->moves_below_printed;
+    figures.moves_outside_chamber = replayed->moves_outside_chamber;
+    for (const Bead& bead : replayed->beads) {
+        figures.declared_mm3 += bead.role == Role::Part ? 0 : static_cast<double>(bead.volume_mm3);
+    }
+    proof.notes = std::move(replayed->notes);
+    judge_levels(scene, *reports, faults, proof);
+    judge_missing_layers(scene, *reports, replayed->climbs, ids, faults);
+    faults.close(proof);
+    return proof;
+}
+
+decomp::Result<CheckedProgram> check(std::string_view program, const std::vector<PlacedPart>& parts,
+                                     const profile::FdmSetup& setup, const Options& options,
+                                     const decomp::Run& run) {
+    auto proof = examine(program, parts, setup, options, run);
+    if (!proof) {
+        return decomp::fail(proof.error());
+    }
+    if (!proof->passed()) {
+        decomp::Error error{"proof.failed", std::to_string(proof->faults.size()) + " fault(s) in the program", {}, {}, {}};
+        for (const Fault& fault : proof->faults) {
+            error.notes.push_back("line " + std::to_string(fault.line) + ": " + fault.text + " [" + fault.code + "]");
+        }
+        return decomp::fail(std::move(error));
+    }
+    CheckedProgram checked;
+    checked.text_ = std::string(program);
+    checked.hash_ = decomp::sha256_hex(program);
+    checked.proof_ = std::move(*proof);
+    return checked;
+}
+
+}  // namespace cam::verify
