@@ -16,7 +16,8 @@ void spread(const std::uint64_t* source, std::uint64_t* target, int words, int r
         if ((here | before | after) != 0) {
             for (int s = 1; s <= reach; ++s) {
                 const auto shift = static_cast<unsigned>(s);
-                sum |= here << shift | before >> (64U - shift) | here >> shift | after << (64U - shift);
+                sum |= here << shift | before >> (64U - shift) | here >> shift |
+                       after << (64U - shift);
             }
         }
         target[w] |= sum;
@@ -51,7 +52,8 @@ Bitmap dilated(const Bitmap& bitmap, int radius) {
             if (target < 0 || target >= window.rows) {
                 continue;
             }
-            const int reach = static_cast<int>(std::sqrt(static_cast<double>(radius * radius - dy * dy)));
+            const int reach =
+                static_cast<int>(std::sqrt(static_cast<double>(radius * radius - dy * dy)));
             spread(bitmap.row_words(row), out.row_words(target), window.words, reach);
         }
     }

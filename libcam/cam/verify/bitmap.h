@@ -9,8 +9,8 @@
 
 namespace cam::verify {
 
-/// A rectangle of pixels on the one grid of a proof: pixel (i, j) has its centre at ((i + 1/2) p, (j + 1/2) p) mm.
-/// `left` is a multiple of 64, so that words of any two windows line up.
+/// A rectangle of pixels on the one grid of a proof: pixel (i, j) has its centre at ((i + 1/2) p,
+/// (j + 1/2) p) mm. `left` is a multiple of 64, so that words of any two windows line up.
 struct Window {
     int left = 0;
     int bottom = 0;
@@ -70,11 +70,13 @@ class Bitmap {
     }
 
     [[nodiscard]] std::uint64_t* row_words(int row) {
-        return bits_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.words);
+        return bits_.data() +
+               static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.words);
     }
 
     [[nodiscard]] const std::uint64_t* row_words(int row) const {
-        return bits_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.words);
+        return bits_.data() +
+               static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.words);
     }
 
     [[nodiscard]] std::vector<std::uint64_t>& words() { return bits_; }
@@ -92,7 +94,8 @@ class Bitmap {
             return;
         }
         const int first = i0 - window_.left < 0 ? 0 : i0 - window_.left;
-        const int last = i1 - window_.left >= window_.words * 64 ? window_.words * 64 - 1 : i1 - window_.left;
+        const int last =
+            i1 - window_.left >= window_.words * 64 ? window_.words * 64 - 1 : i1 - window_.left;
         if (first > last) {
             return;
         }
@@ -119,11 +122,11 @@ class Bitmap {
 /// The pixels within `radius` (in pixels) of a set pixel: a disc on the grid. O(words * radius).
 [[nodiscard]] Bitmap dilated(const Bitmap& bitmap, int radius);
 
-/// Calls body(row, i0, i1) for the pixel centres within `radius` of the segment a-b; all in mm, pixels of `pixel` mm.
-/// Rows outside [lowest, highest] are left out.
+/// Calls body(row, i0, i1) for the pixel centres within `radius` of the segment a-b; all in mm,
+/// pixels of `pixel` mm. Rows outside [lowest, highest] are left out.
 template <class Body>
-void for_capsule_rows(double ax, double ay, double bx, double by, double radius, double pixel, int lowest,
-                      int highest, const Body& body) {
+void for_capsule_rows(double ax, double ay, double bx, double by, double radius, double pixel,
+                      int lowest, int highest, const Body& body) {
     const double inverse = 1 / pixel;
     const double ys = ay < by ? ay : by;
     const double yl = ay < by ? by : ay;
@@ -154,7 +157,8 @@ void for_capsule_rows(double ax, double ay, double bx, double by, double radius,
             right = bx + half > right ? bx + half : right;
         }
         if (long_enough) {
-            // The rectangle between the caps: 0 <= along <= length and |across| <= radius on this row.
+            // The rectangle between the caps: 0 <= along <= length and |across| <= radius on this
+            // row.
             double low = -1e300;
             double high = 1e300;
             const double dy = y - ay;

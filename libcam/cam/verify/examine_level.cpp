@@ -11,8 +11,8 @@
 namespace cam::verify {
 namespace {
 
-constexpr double kReachMm = 1.2;      ///< how far down a bead looks for what carries it
-constexpr double kSampleMm = 0.3;     ///< between two looks along a bead
+constexpr double kReachMm = 1.2;   ///< how far down a bead looks for what carries it
+constexpr double kSampleMm = 0.3;  ///< between two looks along a bead
 constexpr int kMostSamples = 64;
 constexpr double kMarginMm = 1.0;
 
@@ -31,7 +31,9 @@ class LevelExam {
     LevelReport run();
 
   private:
-    [[nodiscard]] const Bead& bead(std::uint32_t k) const { return (*scene_.beads)[scene_.levels->order[k]]; }
+    [[nodiscard]] const Bead& bead(std::uint32_t k) const {
+        return (*scene_.beads)[scene_.levels->order[k]];
+    }
 
     [[nodiscard]] double gap_at(double x, double y) const;
     void measure_lies();
@@ -44,6 +46,7 @@ class LevelExam {
     void check_support();
     template <class Body>
     void rows_of(std::uint32_t k, const Body& body) const;
+
     [[nodiscard]] double mm2(std::size_t pixels) const {
         return static_cast<double>(pixels) * scene_.pixel_mm * scene_.pixel_mm;
     }
@@ -56,9 +59,9 @@ class LevelExam {
     std::vector<Lie> lies_;
     std::vector<Section> sections_;
     Window window_;
-    Bitmap part_;     ///< undeclared material
+    Bitmap part_;  ///< undeclared material
     Bitmap all_;
-    Bitmap inside_;   ///< union of the sections
+    Bitmap inside_;  ///< union of the sections
 };
 
 /// Distance down to what lies beneath, from the rough deposits; kReachMm when there is nothing.
@@ -125,8 +128,8 @@ void LevelExam::rows_of(std::uint32_t k, const Body& body) const {
     const Bead& b = bead(k);
     const Lie& lie = lies_[k - level_.first];
     const double height = lie.height > 0 ? lie.height : strand_diameter(lie.area);
-    for_capsule_rows(b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2, scene_.pixel_mm, window_.bottom,
-                     window_.bottom + window_.rows - 1, body);
+    for_capsule_rows(b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2, scene_.pixel_mm,
+                     window_.bottom, window_.bottom + window_.rows - 1, body);
 }
 
 void LevelExam::make_window() {
@@ -139,7 +142,9 @@ void LevelExam::make_window() {
         if (section.bounds.isEmpty()) {
             continue;
         }
-        const auto pixel = [&](double at) { return static_cast<int>(std::floor(at / scene_.pixel_mm)); };
+        const auto pixel = [&](double at) {
+            return static_cast<int>(std::floor(at / scene_.pixel_mm));
+        };
         i0 = std::min(i0, pixel(section.bounds.min().x() - kMarginMm));
         j0 = std::min(j0, pixel(section.bounds.min().y() - kMarginMm));
         i1 = std::max(i1, pixel(section.bounds.max().x() + kMarginMm));
@@ -168,22 +173,27 @@ void LevelExam::slice_parts() {
         if (section.edges.empty()) {
             continue;
         }
-        const auto pixel = [&](double at) { return static_cast<int>(std::floor(at / scene_.pixel_mm)); };
-        Bitmap alone(Window::around(pixel(section.bounds.min().x()), pixel(section.bounds.min().y()),
-                                    pixel(section.bounds.max().x()), pixel(section.bounds.max().y())));
+        const auto pixel = [&](double at) {
+            return static_cast<int>(std::floor(at / scene_.pixel_mm));
+        };
+        Bitmap alone(
+            Window::around(pixel(section.bounds.min().x()), pixel(section.bounds.min().y()),
+                           pixel(section.bounds.max().x()), pixel(section.bounds.max().y())));
         fill_section(section, scene_.pixel_mm, alone);
         std::size_t covered = 0;
         const int column = (alone.window().left - window_.left) / 64;
         for (int row = 0; row < alone.window().rows; ++row) {
             const std::uint64_t* mine = alone.row_words(row);
-            const std::uint64_t* beads = part_.row_words(row + alone.window().bottom - window_.bottom) + column;
+            const std::uint64_t* beads =
+                part_.row_words(row + alone.window().bottom - window_.bottom) + column;
             for (int w = 0; w < alone.window().words; ++w) {
                 covered += static_cast<std::size_t>(std::popcount(mine[w] & beads[w]));
             }
         }
         const std::size_t pixels = alone.count();
         report_.parts[p].section_mm2 = mm2(pixels);
-        report_.parts[p].covered_share = pixels > 0 ? static_cast<double>(covered) / static_cast<double>(pixels) : 0;
+        report_.parts[p].covered_share =
+            pixels > 0 ? static_cast<double>(covered) / static_cast<double>(pixels) : 0;
         // A section without its material is a missing layer, and judged as one.
         if (report_.parts[p].covered_share >= limits::kPresence) {
             inside_.unite(alone);
@@ -242,7 +252,9 @@ void LevelExam::check_outside() {
             continue;
         }
         int pixels = 0;
-        rows_of(k, [&](int j, int i0, int i1) { pixels += std::max(0, i1 - i0 + 1) - allowed.count(j, i0, i1); });
+        rows_of(k, [&](int j, int i0, int i1) {
+            pixels += std::max(0, i1 - i0 + 1) - allowed.count(j, i0, i1);
+        });
         if (mm2(static_cast<std::size_t>(std::max(0, pixels))) >= 0.05) {
             report_.outside_line = bead(k).line;
         }
@@ -264,7 +276,8 @@ void LevelExam::check_fill() {
 }
 
 void LevelExam::check_support() {
-    const double contact = report_.height_mm * (1 + limits::kContactLayers) + limits::kContactSlackMm;
+    const double contact =
+        report_.height_mm * (1 + limits::kContactLayers) + limits::kContactSlackMm;
     const double touching = report_.height_mm + limits::kContactSlackMm;
     Bitmap carried(window_);
     Bitmap touched(window_);

@@ -41,8 +41,9 @@ struct LevelReport {
     std::vector<PartLevel> parts;
 };
 
-/// Compares one level with the parts. `below` holds the rough deposits of the levels before this one; those further
-/// than 1.2 mm down may be empty. O(pixels of the level).
-[[nodiscard]] LevelReport examine_level(const Scene& scene, std::size_t level, const std::vector<Bitmap>& below);
+/// Compares one level with the parts. `below` holds the rough deposits of the levels before this
+/// one; those further than 1.2 mm down may be empty. O(pixels of the level).
+[[nodiscard]] LevelReport examine_level(const Scene& scene, std::size_t level,
+                                        const std::vector<Bitmap>& below);
 
 }  // namespace cam::verify

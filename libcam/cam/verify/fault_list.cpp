@@ -21,7 +21,8 @@ void FaultList::close(Proof& proof) {
     }
     for (const auto& [code, count] : seen) {
         if (count > limits::kFaultsPerCode) {
-            proof.notes.push_back(std::to_string(count - limits::kFaultsPerCode) + " further faults " + code);
+            proof.notes.push_back(std::to_string(count - limits::kFaultsPerCode) +
+                                  " further faults " + code);
         }
     }
     faults_.clear();

@@ -8,28 +8,21 @@ namespace {
 
 constexpr double kLargestNumber = 1e7;
 
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-char upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 enum class Number { None, Good, Bad };
 
 /// Reads [+-]digits[.digits] at `at`. G-code knows no exponent: "1E5" is X1 followed by E5.
 Number read_number(std::string_view text, std::size_t& at, double& value) {
-    static constexpr std::array<double, 19> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
-                                                       1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+    static constexpr std::array<double, 19> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
+                                                       1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
+                                                       1e14, 1e15, 1e16, 1e17, 1e18};
     std::size_t i = at;
     while (i < text.size() && is_space(text[i])) {
         ++i;
@@ -78,8 +71,8 @@ bool takes_text(char letter, double code) {
         return false;
     }
     const int m = static_cast<int>(code);
-    return m == 16 || m == 23 || m == 28 || m == 30 || m == 32 || m == 36 || m == 70 || m == 117 || m == 118 ||
-           m == 136 || m == 137 || m == 486 || m == 862;
+    return m == 16 || m == 23 || m == 28 || m == 30 || m == 32 || m == 36 || m == 70 || m == 117 ||
+           m == 118 || m == 136 || m == 137 || m == 486 || m == 862;
 }
 
 void read_words(GcodeLine& line, std::string_view text) {

@@ -17,9 +17,9 @@ struct Word {
 /// One line of a program, taken apart. Views point into the program.
 struct GcodeLine {
     enum class Kind {
-        Empty,      ///< nothing, or only a comment
-        Command,    ///< words, the first of which is a G, M or T word
-        Foreign,    ///< a word that is no G, M or T: a macro's name or a parameter without a command
+        Empty,    ///< nothing, or only a comment
+        Command,  ///< words, the first of which is a G, M or T word
+        Foreign,  ///< a word that is no G, M or T: a macro's name or a parameter without a command
         Malformed,  ///< a number that cannot be read or is beyond 1e7
         Unreadable  ///< no G-code at all: bytes that no dialect allows
     };
@@ -39,7 +39,8 @@ struct GcodeLine {
     [[nodiscard]] double value(char letter, double otherwise) const;
 };
 
-/// Splits a program into lines, reading words of every line: optional line numbers (N12), checksums (*71), comments
+/// Splits a program into lines, reading words of every line: optional line numbers (N12), checksums
+/// (*71), comments
 /// (";" and "( )"), any case, with or without spaces. Never throws, whatever the bytes. O(length).
 class GcodeReader {
   public:

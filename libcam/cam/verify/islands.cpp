@@ -63,11 +63,13 @@ std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, B
     std::iota(parents.begin(), parents.end(), 0U);
     std::size_t above = 0;  // first run of the row before
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        while (above < k && (runs[above].row < runs[k].row - 1 ||
-                             (runs[above].row == runs[k].row - 1 && runs[above].last + 1 < runs[k].first))) {
+        while (above < k &&
+               (runs[above].row < runs[k].row - 1 ||
+                (runs[above].row == runs[k].row - 1 && runs[above].last + 1 < runs[k].first))) {
             ++above;
         }
-        for (std::size_t m = above; m < k && runs[m].row == runs[k].row - 1 && runs[m].first <= runs[k].last + 1; ++m) {
+        for (std::size_t m = above;
+             m < k && runs[m].row == runs[k].row - 1 && runs[m].first <= runs[k].last + 1; ++m) {
             const std::uint32_t a = root_of(parents, static_cast<std::uint32_t>(m));
             const std::uint32_t b = root_of(parents, static_cast<std::uint32_t>(k));
             parents[a < b ? b : a] = a < b ? a : b;
@@ -92,7 +94,8 @@ std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, B
             islands.push_back({0, runs[k].first + window.left, runs[k].row + window.bottom});
         }
         islands[index[root]].pixels += static_cast<std::size_t>(runs[k].last - runs[k].first + 1);
-        floating.fill(runs[k].row + window.bottom, runs[k].first + window.left, runs[k].last + window.left);
+        floating.fill(runs[k].row + window.bottom, runs[k].first + window.left,
+                      runs[k].last + window.left);
     }
     return islands;
 }

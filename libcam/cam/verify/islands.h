@@ -15,8 +15,9 @@ struct Island {
     int j = 0;
 };
 
-/// Connected components (by edges and corners) of `deposit` without a pixel in `carried`, with their pixels drawn into
-/// `floating`. O(runs).
-[[nodiscard]] std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, Bitmap& floating);
+/// Connected components (by edges and corners) of `deposit` without a pixel in `carried`, with
+/// their pixels drawn into `floating`. O(runs).
+[[nodiscard]] std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried,
+                                               Bitmap& floating);
 
 }  // namespace cam::verify

@@ -70,9 +70,7 @@ Levels sort_levels(const std::vector<Bead>& beads) {
     return out;
 }
 
-double strand_diameter(double area_mm2) {
-    return std::sqrt(area_mm2 * 4 / std::numbers::pi);
-}
+double strand_diameter(double area_mm2) { return std::sqrt(area_mm2 * 4 / std::numbers::pi); }
 
 double bead_width(double area_mm2, double height_mm) {
     const double strand = strand_diameter(area_mm2);
@@ -84,10 +82,12 @@ double bead_width(double area_mm2, double height_mm) {
 }
 
 double bead_length(const Bead& bead) {
-    return std::hypot(static_cast<double>(bead.x1) - bead.x0, static_cast<double>(bead.y1) - bead.y0);
+    return std::hypot(static_cast<double>(bead.x1) - bead.x0,
+                      static_cast<double>(bead.y1) - bead.y0);
 }
 
-Bitmap rough_deposit(const std::vector<Bead>& beads, const Levels& levels, std::size_t index, double pixel_mm) {
+Bitmap rough_deposit(const std::vector<Bead>& beads, const Levels& levels, std::size_t index,
+                     double pixel_mm) {
     const Level& level = levels.levels[index];
     Bitmap bitmap(window_of(beads, levels, index, pixel_mm));
     const int lowest = bitmap.window().bottom;
@@ -102,7 +102,8 @@ Bitmap rough_deposit(const std::vector<Bead>& beads, const Levels& levels, std::
     return bitmap;
 }
 
-Window window_of(const std::vector<Bead>& beads, const Levels& levels, std::size_t index, double pixel_mm) {
+Window window_of(const std::vector<Bead>& beads, const Levels& levels, std::size_t index,
+                 double pixel_mm) {
     const Level& level = levels.levels[index];
     float left = 1e30F;
     float bottom = 1e30F;
@@ -117,7 +118,8 @@ Window window_of(const std::vector<Bead>& beads, const Levels& levels, std::size
     }
     const double margin = kWidestMm / 2;
     const auto pixel = [&](double at) { return static_cast<int>(std::floor(at / pixel_mm)); };
-    return Window::around(pixel(left - margin), pixel(bottom - margin), pixel(right + margin), pixel(top + margin));
+    return Window::around(pixel(left - margin), pixel(bottom - margin), pixel(right + margin),
+                          pixel(top + margin));
 }
 
 }  // namespace cam::verify

@@ -11,7 +11,8 @@ constexpr double kMostCells = 4e6;
 
 }  // namespace
 
-PrintedHeights::PrintedHeights(const Eigen::Vector2d& min_mm, const Eigen::Vector2d& max_mm) : min_(min_mm) {
+PrintedHeights::PrintedHeights(const Eigen::Vector2d& min_mm, const Eigen::Vector2d& max_mm)
+    : min_(min_mm) {
     const Eigen::Vector2d size = (max_mm - min_mm).cwiseMax(1.0).cwiseMin(1e5);
     cell_mm_ = std::max(cell_mm_, std::sqrt(size.prod() / kMostCells));
     columns_ = static_cast<int>(size.x() / cell_mm_) + 1;
@@ -20,7 +21,8 @@ PrintedHeights::PrintedHeights(const Eigen::Vector2d& min_mm, const Eigen::Vecto
 }
 
 template <class Body>
-void PrintedHeights::for_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Body& body) const {
+void PrintedHeights::for_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                               const Body& body) const {
     // Clipped to the grid first: a move may go anywhere.
     double from = 0;
     double to = 1;
@@ -45,21 +47,27 @@ void PrintedHeights::for_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& 
     const int steps = static_cast<int>(std::ceil((to - from) * d.head<2>().norm() / cell_mm_)) + 1;
     for (int k = 0; k <= steps; ++k) {
         const double t = from + (to - from) * k / steps;
-        const int i = std::clamp(static_cast<int>((a.x() + t * d.x() - min_.x()) / cell_mm_), 0, columns_ - 1);
-        const int j = std::clamp(static_cast<int>((a.y() + t * d.y() - min_.y()) / cell_mm_), 0, rows_ - 1);
-        body(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i),
+        const int i = std::clamp(static_cast<int>((a.x() + t * d.x() - min_.x()) / cell_mm_), 0,
+                                 columns_ - 1);
+        const int j =
+            std::clamp(static_cast<int>((a.y() + t * d.y() - min_.y()) / cell_mm_), 0, rows_ - 1);
+        body(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                 static_cast<std::size_t>(i),
              a.z() + t * d.z());
     }
 }
 
 double PrintedHeights::depth(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     double deepest = -1e9;
-    for_cells(a, b, [&](std::size_t cell, double z) { deepest = std::max(deepest, top_[cell] - z); });
+    for_cells(a, b,
+              [&](std::size_t cell, double z) { deepest = std::max(deepest, top_[cell] - z); });
     return deepest;
 }
 
 void PrintedHeights::raise(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    for_cells(a, b, [&](std::size_t cell, double z) { top_[cell] = std::max(top_[cell], static_cast<float>(z)); });
+    for_cells(a, b, [&](std::size_t cell, double z) {
+        top_[cell] = std::max(top_[cell], static_cast<float>(z));
+    });
 }
 
 }  // namespace cam::verify

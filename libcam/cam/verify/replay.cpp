@@ -26,11 +26,12 @@ constexpr std::size_t kMostSightings = 20000;
 /// Codes that neither move the nozzle nor push filament, in Marlin or Sailfish.
 bool is_harmless(char letter, int code) {
     static constexpr std::array kG = {4, 10, 11, 17, 21, 29, 80, 130};
-    static constexpr std::array kM = {0,   1,   17,  18,  20,  21,  22,  23,  24,  25,  26,  27,  31,  70,  72,
-                                      73,  75,  76,  77,  84,  85,  92,  105, 106, 107, 108, 110, 111, 114, 115,
-                                      117, 118, 119, 126, 127, 130, 135, 136, 137, 150, 155, 201, 202, 203, 204,
-                                      205, 207, 208, 209, 211, 220, 221, 280, 300, 301, 304, 320, 321, 322, 355,
-                                      400, 413, 420, 486, 500, 501, 502, 503, 569, 572, 593, 862, 900, 907, 914};
+    static constexpr std::array kM = {
+        0,   1,   17,  18,  20,  21,  22,  23,  24,  25,  26,  27,  31,  70,  72,
+        73,  75,  76,  77,  84,  85,  92,  105, 106, 107, 108, 110, 111, 114, 115,
+        117, 118, 119, 126, 127, 130, 135, 136, 137, 150, 155, 201, 202, 203, 204,
+        205, 207, 208, 209, 211, 220, 221, 280, 300, 301, 304, 320, 321, 322, 355,
+        400, 413, 420, 486, 500, 501, 502, 503, 569, 572, 593, 862, 900, 907, 914};
     if (letter == 'G') {
         return std::find(kG.begin(), kG.end(), code) != kG.end() && code != 10 && code != 11;
     }
@@ -38,7 +39,8 @@ bool is_harmless(char letter, int code) {
 }
 
 std::string number(double value, int decimals = 2) {
-    return std::abs(value) < 1e8 ? decimal(value, decimals) : (value < 0 ? "-1e8 or less" : "1e8 or more");
+    return std::abs(value) < 1e8 ? decimal(value, decimals)
+                                 : (value < 0 ? "-1e8 or less" : "1e8 or more");
 }
 
 /// The start of a line, fit for a message whatever its bytes.
@@ -51,11 +53,15 @@ std::string quoted(std::string_view line) {
 }
 
 bool contains_word(std::string_view text, std::string_view lower_word) {
-    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
-    return std::search(text.begin(), text.end(), lower_word.begin(), lower_word.end(), same) != text.end();
+    const auto same = [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+    };
+    return std::search(text.begin(), text.end(), lower_word.begin(), lower_word.end(), same) !=
+           text.end();
 }
 
-/// One linear axis. The frame is trusted once the printer knows where it is; the value may be unknown after homing.
+/// One linear axis. The frame is trusted once the printer knows where it is; the value may be
+/// unknown after homing.
 struct Axis {
     double position = 0;
     double offset = 0;  ///< of G92: position = programmed + offset
@@ -84,9 +90,12 @@ class Machine {
         : setup_(setup),
           options_(options),
           heights_(setup.machine.chamber.min_mm.head<2>(), setup.machine.chamber.max_mm.head<2>()),
-          filament_area_(std::numbers::pi / 4 * std::pow(setup.machine.nozzle.filament_diameter_mm, 2)),
-          flow_limit_(std::min(setup.machine.nozzle.max_flow_mm3_per_s, setup.material.max_flow_mm3_per_s)),
-          sailfish_(contains_word(setup.dialect.name, "sailfish") || contains_word(setup.dialect.name, "makerbot")) {}
+          filament_area_(std::numbers::pi / 4 *
+                         std::pow(setup.machine.nozzle.filament_diameter_mm, 2)),
+          flow_limit_(
+              std::min(setup.machine.nozzle.max_flow_mm3_per_s, setup.material.max_flow_mm3_per_s)),
+          sailfish_(contains_word(setup.dialect.name, "sailfish") ||
+                    contains_word(setup.dialect.name, "makerbot")) {}
 
     void execute(const GcodeLine& line, long number);
     Replayed finish(long lines);
@@ -107,7 +116,8 @@ class Machine {
     [[nodiscard]] double filament_of(const GcodeLine& line);
     void go(const std::array<double, 3>& to, const std::array<bool, 3>& given, double filament);
     void check_bounds(const std::array<bool, 3>& given);
-    void deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double filament, bool was_known);
+    void deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double filament,
+                 bool was_known);
     void check_flow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double volume);
     [[nodiscard]] bool near_chamber(const Eigen::Vector3d& point) const;
     void check_heat();
@@ -145,7 +155,8 @@ void Machine::sight(const char* code, std::string text, bool at_layer) {
         return;  // a file of nothing but faults; the figures still count
     }
     const Axis& z = axes_[2];
-    out_.sightings.push_back({code, line_, at_layer && z.known && z.trusted ? z.position : -1, std::move(text)});
+    out_.sightings.push_back(
+        {code, line_, at_layer && z.known && z.trusted ? z.position : -1, std::move(text)});
 }
 
 void Machine::unknown(const std::string& name) {
@@ -153,7 +164,8 @@ void Machine::unknown(const std::string& name) {
     if (uses++ == 0) {
         first = line_;
         if (!options_.strangers_program) {
-            sight("proof.unknown_command", "the command " + name + " is none that this checker knows", false);
+            sight("proof.unknown_command",
+                  "the command " + name + " is none that this checker knows", false);
         }
     }
 }
@@ -169,8 +181,8 @@ void Machine::comment(std::string_view text) {
     declared_ = true;
     if (contains_word(text, "support")) {
         role_ = Role::Support;
-    } else if (contains_word(text, "skirt") || contains_word(text, "brim") || contains_word(text, "prime") ||
-               contains_word(text, "wipe tower")) {
+    } else if (contains_word(text, "skirt") || contains_word(text, "brim") ||
+               contains_word(text, "prime") || contains_word(text, "wipe tower")) {
         role_ = Role::Adhesion;
     } else if (contains_word(text, "custom")) {
         role_ = out_.beads.empty() ? Role::Adhesion : Role::Part;
@@ -213,7 +225,8 @@ void Machine::command(const GcodeLine& line, const Word& word) {
     if (!options_.strangers_program &&
         std::find(setup_.dialect.forbidden.begin(), setup_.dialect.forbidden.end(), name) !=
             setup_.dialect.forbidden.end()) {
-        sight("proof.forbidden_word", "the dialect " + setup_.dialect.name + " must never be told " + name, false);
+        sight("proof.forbidden_word",
+              "the dialect " + setup_.dialect.name + " must never be told " + name, false);
     }
     if (code < 0 || code != std::floor(code)) {
         unknown(name);
@@ -320,7 +333,8 @@ void Machine::heat(const GcodeLine& line, bool wait) {
         return;
     }
     if (celsius >= 0) {
-        tool.heated = celsius <= tool.target ? tool.heated && celsius >= least : tool.heated && tool.target >= least;
+        tool.heated = celsius <= tool.target ? tool.heated && celsius >= least
+                                             : tool.heated && tool.target >= least;
         tool.target = celsius;
     }
     tool.heated = tool.heated || wait;
@@ -422,7 +436,8 @@ void Machine::arc(const GcodeLine& line, bool clockwise) {
     const std::array<double, 3> from = {axes_[0].position, axes_[1].position, axes_[2].position};
     Eigen::Vector2d start(from[0], from[1]);
     Eigen::Vector2d end(to[0], to[1]);
-    Eigen::Vector2d centre = start + Eigen::Vector2d(line.value('I', 0), line.value('J', 0)) * unit_mm_;
+    Eigen::Vector2d centre =
+        start + Eigen::Vector2d(line.value('I', 0), line.value('J', 0)) * unit_mm_;
     if (const Word* word = line.find('R'); word != nullptr && word->has_value) {
         const Eigen::Vector2d chord = end - start;
         const double radius = word->value * unit_mm_;
@@ -432,7 +447,8 @@ void Machine::arc(const GcodeLine& line, bool clockwise) {
         centre = start + chord / 2 + side * rise * (clockwise == (radius > 0) ? -1 : 1);
     }
     const double radius = (start - centre).norm();
-    if (!(radius > 1e-6) || !axes_[0].known || !axes_[1].known || std::abs((end - centre).norm() - radius) > 0.5) {
+    if (!(radius > 1e-6) || !axes_[0].known || !axes_[1].known ||
+        std::abs((end - centre).norm() - radius) > 0.5) {
         sight("proof.bad_arc", quoted(text_) + " is no arc from where the nozzle is");
         go(to, given, filament);
         return;
@@ -440,7 +456,8 @@ void Machine::arc(const GcodeLine& line, bool clockwise) {
     const double first = std::atan2(start.y() - centre.y(), start.x() - centre.x());
     double sweep = std::atan2(end.y() - centre.y(), end.x() - centre.x()) - first;
     const double turn = 2 * std::numbers::pi;
-    sweep = clockwise ? (sweep >= -1e-9 ? sweep - turn : sweep) : (sweep <= 1e-9 ? sweep + turn : sweep);
+    sweep = clockwise ? (sweep >= -1e-9 ? sweep - turn : sweep)
+                      : (sweep <= 1e-9 ? sweep + turn : sweep);
     // Chords that leave the arc by 0.02 mm at most.
     const double step = 2 * std::acos(std::max(0.0, 1 - 0.02 / std::max(radius, 0.04)));
     const int steps = static_cast<int>(std::clamp(std::ceil(std::abs(sweep) / step), 1.0, 3600.0));
@@ -449,13 +466,15 @@ void Machine::arc(const GcodeLine& line, bool clockwise) {
         std::array<double, 3> point = to;
         if (k < steps) {
             point = {centre.x() + radius * std::cos(first + t * sweep),
-                     centre.y() + radius * std::sin(first + t * sweep), from[2] + t * (to[2] - from[2])};
+                     centre.y() + radius * std::sin(first + t * sweep),
+                     from[2] + t * (to[2] - from[2])};
         }
         go(point, {true, true, given[2]}, filament / steps);
     }
 }
 
-void Machine::go(const std::array<double, 3>& to, const std::array<bool, 3>& given, double filament) {
+void Machine::go(const std::array<double, 3>& to, const std::array<bool, 3>& given,
+                 double filament) {
     const Eigen::Vector3d from(axes_[0].position, axes_[1].position, axes_[2].position);
     bool was_known = true;
     for (const Axis& axis : axes_) {
@@ -465,7 +484,8 @@ void Machine::go(const std::array<double, 3>& to, const std::array<bool, 3>& giv
         Axis& axis = axes_[a];
         if (given[a]) {
             if (a == 2 && (!axis.known || to[a] != axis.position)) {
-                out_.climbs.push_back({static_cast<float>(to[a]), static_cast<std::int32_t>(line_)});
+                out_.climbs.push_back(
+                    {static_cast<float>(to[a]), static_cast<std::int32_t>(line_)});
             }
             axis.position = to[a];
             axis.known = axis.known || absolute_;
@@ -480,10 +500,12 @@ void Machine::go(const std::array<double, 3>& to, const std::array<bool, 3>& giv
     const bool known = axes_[0].known && axes_[1].known && axes_[2].known;
     if (trusted && known && (given[0] || given[1] || given[2])) {
         const double depth = heights_.depth(was_known ? from : end, end);
-        if (depth > limits::kBelowSlackMm && !(was_known && heights_.depth(from, from) > limits::kBelowSlackMm &&
-                                                end.z() > from.z())) {
+        if (depth > limits::kBelowSlackMm &&
+            !(was_known && heights_.depth(from, from) > limits::kBelowSlackMm &&
+              end.z() > from.z())) {
             ++out_.moves_below_printed;
-            sight("proof.below_printed", "the nozzle goes " + number(depth) + " mm below material that is printed already, " +
+            sight("proof.below_printed", "the nozzle goes " + number(depth) +
+                                             " mm below material that is printed already, " +
                                              number(limits::kBelowSlackMm) + " mm is allowed");
         }
     }
@@ -499,16 +521,19 @@ void Machine::check_bounds(const std::array<bool, 3>& given) {
         const auto index = static_cast<Eigen::Index>(a);
         const double low = chamber.min_mm[index];
         const double high = chamber.max_mm[index];
-        if (axis.position < low - limits::kChamberSlackMm || axis.position > high + limits::kChamberSlackMm) {
+        if (axis.position < low - limits::kChamberSlackMm ||
+            axis.position > high + limits::kChamberSlackMm) {
             ++out_.moves_outside_chamber;
-            sight("proof.outside_chamber", std::string("a move to ") + "XYZ"[a] + number(axis.position, 3) +
-                                               ", the chamber is " + number(low, 3) + " .. " + number(high, 3) + " mm");
+            sight("proof.outside_chamber", std::string("a move to ") + "XYZ"[a] +
+                                               number(axis.position, 3) + ", the chamber is " +
+                                               number(low, 3) + " .. " + number(high, 3) + " mm");
             return;
         }
     }
 }
 
-void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double filament, bool was_known) {
+void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double filament,
+                      bool was_known) {
     Tool& tool = tools_[tool_];
     tool.fed += filament;
     const double pushed = tool.fed - tool.high_water;
@@ -522,7 +547,8 @@ void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, do
     check_heat();
     const double run_mm = (to - from).head<2>().norm();
     if (!was_known && run_mm > kStandstillMm) {
-        sight("proof.unknown_position", "filament is pushed on a move that starts nobody knows where", false);
+        sight("proof.unknown_position",
+              "filament is pushed on a move that starts nobody knows where", false);
         return;
     }
     if (run_mm <= kStandstillMm) {
@@ -532,7 +558,8 @@ void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, do
         }
         out_.blob_mm3 += volume;
         if (volume > limits::kBlobMm3) {
-            sight("proof.blob", number(volume) + " mm^3 (" + number(pushed) + " mm of filament) is pushed at a standstill, " +
+            sight("proof.blob", number(volume) + " mm^3 (" + number(pushed) +
+                                    " mm of filament) is pushed at a standstill, " +
                                     number(limits::kBlobMm3) + " mm^3 is allowed");
         }
         return;
@@ -545,15 +572,17 @@ void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, do
         return;  // reported by check_bounds
     }
     heights_.raise(from, to);
-    out_.beads.push_back({static_cast<float>(from.x()), static_cast<float>(from.y()), static_cast<float>(to.x()),
-                          static_cast<float>(to.y()), static_cast<float>(to.z()), static_cast<float>(volume),
+    out_.beads.push_back({static_cast<float>(from.x()), static_cast<float>(from.y()),
+                          static_cast<float>(to.x()), static_cast<float>(to.y()),
+                          static_cast<float>(to.z()), static_cast<float>(volume),
                           static_cast<std::int32_t>(line_), declared_ ? role_ : Role::Adhesion});
 }
 
 bool Machine::near_chamber(const Eigen::Vector3d& point) const {
     constexpr double kNearMm = 10;
     const auto& chamber = setup_.machine.chamber;
-    return ((point - chamber.min_mm).array() >= -kNearMm).all() && ((point - chamber.max_mm).array() <= kNearMm).all();
+    return ((point - chamber.min_mm).array() >= -kNearMm).all() &&
+           ((point - chamber.max_mm).array() <= kNearMm).all();
 }
 
 void Machine::check_heat() {
@@ -564,11 +593,13 @@ void Machine::check_heat() {
     }
     cold_told_ = true;
     if (tool.target < least) {
-        sight("proof.cold_extrusion", "filament is pushed while the nozzle is set to " + number(tool.target, 1) + " C, " +
-                                          setup_.material.name + " needs " + number(least, 1) + " C");
+        sight("proof.cold_extrusion", "filament is pushed while the nozzle is set to " +
+                                          number(tool.target, 1) + " C, " + setup_.material.name +
+                                          " needs " + number(least, 1) + " C");
     } else {
-        sight("proof.cold_extrusion", "filament is pushed before the program has waited for the nozzle to reach " +
-                                          number(tool.target, 1) + " C");
+        sight("proof.cold_extrusion",
+              "filament is pushed before the program has waited for the nozzle to reach " +
+                  number(tool.target, 1) + " C");
     }
 }
 
@@ -604,8 +635,9 @@ void Machine::check_flow(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 void Machine::end_rush() {
     if (rush_) {
         out_.sightings.push_back({"proof.flow", rush_->line, rush_->z,
-                                  "up to " + number(rush_->flow) + " mm^3/s on " + number(rush_->length, 1) +
-                                      " mm of path, the limit is " + number(flow_limit_) + " mm^3/s"});
+                                  "up to " + number(rush_->flow) + " mm^3/s on " +
+                                      number(rush_->length, 1) + " mm of path, the limit is " +
+                                      number(flow_limit_) + " mm^3/s"});
         rush_.reset();
     }
 }
@@ -613,7 +645,8 @@ void Machine::end_rush() {
 Replayed Machine::finish(long lines) {
     end_rush();
     out_.lines = lines;
-    // A prime line comes before the first feature comment; without any such comment nothing is declared.
+    // A prime line comes before the first feature comment; without any such comment nothing is
+    // declared.
     if (!declared_) {
         for (Bead& bead : out_.beads) {
             bead.role = Role::Part;
@@ -621,16 +654,19 @@ Replayed Machine::finish(long lines) {
     }
     if (options_.strangers_program) {
         for (const auto& [name, use] : unknown_) {
-            out_.notes.push_back("unknown command " + name + ", first in line " + std::to_string(use.first) + ", " +
-                                 std::to_string(use.second) + " times");
+            out_.notes.push_back("unknown command " + name + ", first in line " +
+                                 std::to_string(use.first) + ", " + std::to_string(use.second) +
+                                 " times");
         }
     }
     if (out_.prime_mm3 > limits::kPrimeMm3) {
-        out_.notes.push_back(number(out_.prime_mm3) + " mm^3 is pushed at a standstill before the first bead");
+        out_.notes.push_back(number(out_.prime_mm3) +
+                             " mm^3 is pushed at a standstill before the first bead");
     }
     for (std::size_t t = 0; t < kTools; ++t) {
         if (tools_[t].target > 0) {
-            out_.notes.push_back("the heater of tool " + std::to_string(t) + " is not switched off at the end");
+            out_.notes.push_back("the heater of tool " + std::to_string(t) +
+                                 " is not switched off at the end");
         }
     }
     if (bed_target_ > 0) {
@@ -644,14 +680,15 @@ Replayed Machine::finish(long lines) {
 
 }  // namespace
 
-decomp::Result<Replayed> replay(std::string_view program, const profile::FdmSetup& setup, const Options& options,
-                                const decomp::Run& run) {
+decomp::Result<Replayed> replay(std::string_view program, const profile::FdmSetup& setup,
+                                const Options& options, const decomp::Run& run) {
     Machine machine(setup, options);
     GcodeReader reader(program);
     GcodeLine line;
     while (reader.next(line)) {
         if (line.kind == GcodeLine::Kind::Unreadable) {
-            return decomp::fail("proof.unreadable", "this is no G-code", "line " + std::to_string(reader.number()),
+            return decomp::fail("proof.unreadable", "this is no G-code",
+                                "line " + std::to_string(reader.number()),
                                 "give the program as text, before any conversion");
         }
         if ((reader.number() & 0x3FFF) == 0 && run.cancelled()) {

@@ -56,9 +56,11 @@ struct Replayed {
     int moves_outside_chamber = 0;
 };
 
-/// Replays modal state, axes, retraction ledger and heaters, and keeps a height map of what is printed. Serial, O(length).
+/// Replays modal state, axes, retraction ledger and heaters, and keeps a height map of what is
+/// printed. Serial, O(length).
 /// @error proof.unreadable, run.cancelled
-[[nodiscard]] decomp::Result<Replayed> replay(std::string_view program, const profile::FdmSetup& setup,
+[[nodiscard]] decomp::Result<Replayed> replay(std::string_view program,
+                                              const profile::FdmSetup& setup,
                                               const Options& options, const decomp::Run& run);
 
 }  // namespace cam::verify

@@ -74,15 +74,18 @@ Section Slicer::at(double z) const {
         return section;
     }
     const auto last = static_cast<double>(starts_.size() - 2);
-    const auto bin = static_cast<std::size_t>(std::clamp(std::floor((z - bounds_.min().z()) / bin_mm_), 0.0, last));
+    const auto bin = static_cast<std::size_t>(
+        std::clamp(std::floor((z - bounds_.min().z()) / bin_mm_), 0.0, last));
     for (std::uint32_t k = starts_[bin]; k < starts_[bin + 1]; ++k) {
         const auto& t = mesh_->triangles[triangles_[k]];
-        const std::array<bool, 3> above = {mesh_->points[t[0]].z() >= z, mesh_->points[t[1]].z() >= z,
+        const std::array<bool, 3> above = {mesh_->points[t[0]].z() >= z,
+                                           mesh_->points[t[1]].z() >= z,
                                            mesh_->points[t[2]].z() >= z};
         if (above[0] == above[1] && above[1] == above[2]) {
             continue;
         }
-        // Seen from outside, the outline runs from the edge that comes down to the edge that goes up.
+        // Seen from outside, the outline runs from the edge that comes down to the edge that goes
+        // up.
         Eigen::Vector2d down = Eigen::Vector2d::Zero();
         Eigen::Vector2d up = Eigen::Vector2d::Zero();
         for (std::size_t e = 0; e < 3; ++e) {
@@ -125,7 +128,8 @@ void fill_section(const Section& section, double pixel_mm, Bitmap& bitmap) {
         }
         winding += crossings[k].sign;
         if (winding > 0 && k + 1 < crossings.size() && crossings[k + 1].row == crossings[k].row) {
-            bitmap.fill(crossings[k].row, static_cast<int>(std::ceil(crossings[k].x / pixel_mm - 0.5)),
+            bitmap.fill(crossings[k].row,
+                        static_cast<int>(std::ceil(crossings[k].x / pixel_mm - 0.5)),
                         static_cast<int>(std::ceil(crossings[k + 1].x / pixel_mm - 0.5)) - 1);
         }
     }

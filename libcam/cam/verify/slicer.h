@@ -5,6 +5,7 @@
 #include "decomp/mesh/tri_mesh.h"
 
 #include <Eigen/Geometry>
+
 #include <array>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct Section {
     Eigen::AlignedBox2d bounds;
 };
 
-/// Cuts one mesh at any height. Points on the plane count as above it, so sections of closed meshes are closed.
+/// Cuts one mesh at any height. Points on the plane count as above it, so sections of closed meshes
+/// are closed.
 class Slicer {
   public:
     /// Sorts the triangles into bins by height. O(n).

@@ -25,7 +25,8 @@ decomp::Status check_parts(const std::vector<PlacedPart>& parts, const profile::
         for (const auto& triangle : part.mesh.triangles) {
             for (const std::uint32_t v : triangle) {
                 if (v >= part.mesh.points.size()) {
-                    return decomp::fail("proof.bad_part", "a triangle names a point that does not exist", part.id);
+                    return decomp::fail("proof.bad_part",
+                                        "a triangle names a point that does not exist", part.id);
                 }
             }
         }
@@ -41,8 +42,10 @@ decomp::Status check_parts(const std::vector<PlacedPart>& parts, const profile::
     return {};
 }
 
-/// Levels in batches from the bed up: a level needs the rough deposits of those below, and nothing else of them.
-decomp::Result<std::vector<LevelReport>> examine_levels(const Scene& scene, const decomp::Run& run) {
+/// Levels in batches from the bed up: a level needs the rough deposits of those below, and nothing
+/// else of them.
+decomp::Result<std::vector<LevelReport>> examine_levels(const Scene& scene,
+                                                        const decomp::Run& run) {
     const std::size_t count = scene.levels->levels.size();
     std::vector<LevelReport> reports(count);
     std::vector<Bitmap> rough(count);
@@ -53,10 +56,12 @@ decomp::Result<std::vector<LevelReport>> examine_levels(const Scene& scene, cons
         }
         const std::size_t size = std::min(kBatch, count - first);
         decomp::for_each_index(run, size, [&](std::size_t k) {
-            rough[first + k] = rough_deposit(*scene.beads, *scene.levels, first + k, scene.pixel_mm);
+            rough[first + k] =
+                rough_deposit(*scene.beads, *scene.levels, first + k, scene.pixel_mm);
         });
-        decomp::for_each_index(
-            run, size, [&](std::size_t k) { reports[first + k] = examine_level(scene, first + k, rough); });
+        decomp::for_each_index(run, size, [&](std::size_t k) {
+            reports[first + k] = examine_level(scene, first + k, rough);
+        });
         while (kept < first + size &&
                scene.levels->levels[kept].z < scene.levels->levels[first + size - 1].z - kReachMm) {
             rough[kept++] = Bitmap();
@@ -72,7 +77,8 @@ decomp::Result<std::vector<LevelReport>> examine_levels(const Scene& scene, cons
 }  // namespace
 
 decomp::Result<Proof> examine(std::string_view program, const std::vector<PlacedPart>& parts,
-                              const profile::FdmSetup& setup, const Options& options, const decomp::Run& run) {
+                              const profile::FdmSetup& setup, const Options& options,
+                              const decomp::Run& run) {
     if (auto good = check_parts(parts, setup); !good) {
         return decomp::fail(good.error());
     }
@@ -95,7 +101,8 @@ decomp::Result<Proof> examine(std::string_view program, const std::vector<Placed
     Proof proof;
     FaultList faults;
     for (Sighting& seen : replayed->sightings) {
-        faults.add({std::move(seen.code), seen.line, seen.z >= 0 ? levels.layer_at(seen.z) : -1, std::move(seen.text)});
+        faults.add({std::move(seen.code), seen.line, seen.z >= 0 ? levels.layer_at(seen.z) : -1,
+                    std::move(seen.text)});
     }
     Figures& figures = proof.figures;
     figures.lines = replayed->lines;
@@ -123,9 +130,14 @@ decomp::Result<CheckedProgram> check(std::string_view program, const std::vector
         return decomp::fail(proof.error());
     }
     if (!proof->passed()) {
-        decomp::Error error{"proof.failed", std::to_string(proof->faults.size()) + " fault(s) in the program", {}, {}, {}};
+        decomp::Error error{"proof.failed",
+                            std::to_string(proof->faults.size()) + " fault(s) in the program",
+                            {},
+                            {},
+                            {}};
         for (const Fault& fault : proof->faults) {
-            error.notes.push_back("line " + std::to_string(fault.line) + ": " + fault.text + " [" + fault.code + "]");
+            error.notes.push_back("line " + std::to_string(fault.line) + ": " + fault.text + " [" +
+                                  fault.code + "]");
         }
         return decomp::fail(std::move(error));
     }

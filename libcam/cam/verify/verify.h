@@ -10,10 +10,12 @@
 #include <string_view>
 #include <vector>
 
-/// The proof: re-reads emitted text with a parser of its own, shares no code with slicing or posting.
+/// The proof: re-reads emitted text with a parser of its own, shares no code with slicing or
+/// posting.
 namespace cam::verify {
 
-/// A part where the program is meant to make it: mesh already in the machine's coordinates (bed frame, mm).
+/// A part where the program is meant to make it: mesh already in the machine's coordinates (bed
+/// frame, mm).
 struct PlacedPart {
     std::string id;
     decomp::mesh::TriMesh mesh;
@@ -28,10 +30,10 @@ struct Options {
 
 /// One thing that is wrong, with the line of the program.
 struct Fault {
-    std::string code;   ///< stable dotted word, e.g. "proof.outside_chamber"
-    long line = 0;      ///< 1-based; 0 when it belongs to no line
-    int layer = -1;     ///< 0-based; -1 when it belongs to no layer
-    std::string text;   ///< one sentence with the figure and the limit
+    std::string code;  ///< stable dotted word, e.g. "proof.outside_chamber"
+    long line = 0;     ///< 1-based; 0 when it belongs to no line
+    int layer = -1;    ///< 0-based; -1 when it belongs to no layer
+    std::string text;  ///< one sentence with the figure and the limit
 };
 
 /// The figures of one program, whether or not it passed.
@@ -42,17 +44,18 @@ struct Figures {
     double extruded_mm3 = 0;
     double max_flow_mm3_per_s = 0;
     double out_of_part_mm3 = 0;
-    double out_of_part_percent = 0;      ///< of the extruded volume that belongs to the part
-    double uncovered_skin_percent = 0;   ///< of the skin ring 0.1..0.35 mm inside the surface
+    double out_of_part_percent = 0;     ///< of the extruded volume that belongs to the part
+    double uncovered_skin_percent = 0;  ///< of the skin ring 0.1..0.35 mm inside the surface
     double worst_layer_uncovered_percent = 0;
-    double solid_fill_ratio = 0;         ///< V / (A h) over solid layers; 0 when there are none
+    double solid_fill_ratio = 0;  ///< V / (A h) over solid layers; 0 when there are none
     int floating_islands = 0;
     int moves_below_printed = 0;
     int moves_outside_chamber = 0;
-    double blob_mm3 = 0;                 ///< extruded at a standstill, retractions made up for
-    double declared_mm3 = 0;             ///< beads that the program calls support, skirt, brim or prime
-    double air_percent = 0;              ///< of the part's bead area: over nothing and beyond the layer below
-    double internal_bridge_percent = 0;  ///< of the part's bead area: over nothing, inside the layer below
+    double blob_mm3 = 0;      ///< extruded at a standstill, retractions made up for
+    double declared_mm3 = 0;  ///< beads that the program calls support, skirt, brim or prime
+    double air_percent = 0;   ///< of the part's bead area: over nothing and beyond the layer below
+    double internal_bridge_percent =
+        0;  ///< of the part's bead area: over nothing, inside the layer below
     int solid_layers = 0;
 };
 
@@ -76,25 +79,28 @@ class CheckedProgram {
 
   private:
     friend decomp::Result<CheckedProgram> check(std::string_view, const std::vector<PlacedPart>&,
-                                                const profile::FdmSetup&, const Options&, const decomp::Run&);
+                                                const profile::FdmSetup&, const Options&,
+                                                const decomp::Run&);
     std::string text_;
     std::string hash_;
     Proof proof_;
 };
 
-/// Replays a program and compares what it deposits with the parts. Faults are no error here: read `passed()`.
-/// Faults are in the order of their lines and do not depend on run.jobs. Cost: see README.md; memory 40 bytes a bead
-/// and the pixels of a few layers.
-/// @error proof.unreadable (a line that is no G-code, with its number), proof.bad_part (a mesh that is not finite or far
-/// from the chamber), run.cancelled
-[[nodiscard]] decomp::Result<Proof> examine(std::string_view program, const std::vector<PlacedPart>& parts,
+/// Replays a program and compares what it deposits with the parts. Faults are no error here: read
+/// `passed()`. Faults are in the order of their lines and do not depend on run.jobs. Cost: see
+/// README.md; memory 40 bytes a bead and the pixels of a few layers.
+/// @error proof.unreadable (a line that is no G-code, with its number), proof.bad_part (a mesh that
+/// is not finite or far from the chamber), run.cancelled
+[[nodiscard]] decomp::Result<Proof> examine(std::string_view program,
+                                            const std::vector<PlacedPart>& parts,
                                             const profile::FdmSetup& setup, const Options& options,
                                             const decomp::Run& run);
 
 /// examine(), and the program as a value that can be streamed.
 /// @error as examine(); proof.failed with one note per fault
-[[nodiscard]] decomp::Result<CheckedProgram> check(std::string_view program, const std::vector<PlacedPart>& parts,
-                                                   const profile::FdmSetup& setup, const Options& options,
-                                                   const decomp::Run& run);
+[[nodiscard]] decomp::Result<CheckedProgram> check(std::string_view program,
+                                                   const std::vector<PlacedPart>& parts,
+                                                   const profile::FdmSetup& setup,
+                                                   const Options& options, const decomp::Run& run);
 
 }  // namespace cam::verify

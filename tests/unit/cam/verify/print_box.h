@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-/// A printer of solid boxes that knows nothing of the project's slicer: concentric loops whose volume fills the box.
+/// A printer of solid boxes that knows nothing of the project's slicer: concentric loops whose
+/// volume fills the box.
 namespace tests {
 
 struct BoxPrint {
@@ -21,7 +22,8 @@ struct BoxPrint {
     double speed_mm_per_s = 40;
     bool relative_e = false;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-    /// Called before and after the loops of each layer, to seed faults; may change the state of the print.
+    /// Called before and after the loops of each layer, to seed faults; may change the state of the
+    /// print.
     std::function<void(struct BoxWriter&, int layer)> before;
     std::function<void(struct BoxWriter&, int layer)> after;
 };
@@ -30,9 +32,9 @@ struct BoxWriter {
     std::string text;
     long line = 0;
     double e = 0;
-    double flow = 1;    ///< scales what is extruded
-    double speed = 1;   ///< scales the feed
-    bool dry = false;   ///< moves without extruding
+    double flow = 1;   ///< scales what is extruded
+    double speed = 1;  ///< scales the feed
+    bool dry = false;  ///< moves without extruding
     bool relative_e = false;
     Eigen::Vector2d shift = Eigen::Vector2d::Zero();
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
@@ -69,7 +71,8 @@ struct BoxWriter {
                     feed_mm_per_s * 60 * speed);
     }
 
-    void square(const Eigen::Vector2d& centre, double half, double spacing, double height, double feed) {
+    void square(const Eigen::Vector2d& centre, double half, double spacing, double height,
+                double feed) {
         travel(centre + Eigen::Vector2d(-half, -half));
         bead(centre + Eigen::Vector2d(half, -half), spacing, height, feed);
         bead(centre + Eigen::Vector2d(half, half), spacing, height, feed);
@@ -87,7 +90,8 @@ inline PrintedBox print_box(const BoxPrint& print) {
     BoxWriter out;
     out.relative_e = print.relative_e;
     PrintedBox box;
-    for (const char* words : {"G21", "G90", "M140 S60", "M104 S215", "M190 S60", "M109 S215", "G28"}) {
+    for (const char* words :
+         {"G21", "G90", "M140 S60", "M104 S215", "M190 S60", "M109 S215", "G28"}) {
         out.put(words);
     }
     out.put(print.relative_e ? "M83" : "M82");
@@ -117,7 +121,8 @@ inline PrintedBox print_box(const BoxPrint& print) {
 }
 
 inline cam::verify::PlacedPart box_part(const BoxPrint& print) {
-    const Eigen::Vector3d low(print.centre.x() - print.half_mm, print.centre.y() - print.half_mm, 0);
+    const Eigen::Vector3d low(print.centre.x() - print.half_mm, print.centre.y() - print.half_mm,
+                              0);
     const Eigen::Vector3d high(print.centre.x() + print.half_mm, print.centre.y() + print.half_mm,
                                print.layers * print.height_mm);
     return {"P01", box(low, high)};

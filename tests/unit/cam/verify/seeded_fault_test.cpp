@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/unit/cam/verify/print_box.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace {
 
@@ -24,8 +25,8 @@ Proof prove(const PrintedBox& printed, const std::vector<cam::verify::PlacedPart
 std::string told(const Proof& proof) {
     std::string out;
     for (const Fault& fault : proof.faults) {
-        out += fault.code + " line " + std::to_string(fault.line) + " layer " + std::to_string(fault.layer) + ": " +
-               fault.text + "\n";
+        out += fault.code + " line " + std::to_string(fault.line) + " layer " +
+               std::to_string(fault.layer) + ": " + fault.text + "\n";
     }
     return out;
 }
@@ -37,7 +38,8 @@ const Fault* find(const Proof& proof, const std::string& code) {
 }
 
 /// The fault is there, and points into this layer of the program.
-void expect_fault(const Proof& proof, const std::string& code, const PrintedBox& printed, int layer) {
+void expect_fault(const Proof& proof, const std::string& code, const PrintedBox& printed,
+                  int layer) {
     const Fault* fault = find(proof, code);
     ASSERT_NE(fault, nullptr) << code << " is missing among\n" << told(proof);
     EXPECT_EQ(fault->layer, layer) << told(proof);
@@ -177,8 +179,8 @@ TEST(SeededFault, AnUnknownCommandIsAFaultOfOursAndANoteForAStranger) {
     const Proof ours = prove(printed, {box_part(print)});
     ASSERT_NE(find(ours, "proof.unknown_command"), nullptr);
     EXPECT_EQ(find(ours, "proof.unknown_command")->line, printed.layer_lines[2] + 1);
-    const auto theirs =
-        cam::verify::examine(printed.text, {box_part(print)}, tests::proof_setup(), {.strangers_program = true}, {});
+    const auto theirs = cam::verify::examine(printed.text, {box_part(print)}, tests::proof_setup(),
+                                             {.strangers_program = true}, {});
     ASSERT_TRUE(theirs.has_value());
     EXPECT_TRUE(theirs->passed()) << told(*theirs);
     EXPECT_EQ(theirs->notes.size(), 1U);
@@ -219,12 +221,14 @@ TEST(SeededFault, TheProofDoesNotDependOnTheNumberOfThreads) {
 TEST(CheckedProgram, IsOnlyMadeFromAProgramThatPasses) {
     BoxPrint print;
     const PrintedBox printed = print_box(print);
-    const auto good = cam::verify::check(printed.text, {box_part(print)}, tests::proof_setup(), {}, {});
+    const auto good =
+        cam::verify::check(printed.text, {box_part(print)}, tests::proof_setup(), {}, {});
     ASSERT_TRUE(good.has_value());
     EXPECT_EQ(good->text(), printed.text);
     EXPECT_EQ(good->hash().size(), 64U);
     print.before = [](BoxWriter& out, int) { out.flow = 1.2; };
-    const auto bad = cam::verify::check(print_box(print).text, {box_part(print)}, tests::proof_setup(), {}, {});
+    const auto bad =
+        cam::verify::check(print_box(print).text, {box_part(print)}, tests::proof_setup(), {}, {});
     ASSERT_FALSE(bad.has_value());
     EXPECT_EQ(bad.error().code, "proof.failed");
     EXPECT_FALSE(bad.error().notes.empty());
