@@ -120,13 +120,13 @@ Finished run_program(std::vector<std::string> words, const decomp::Run& run) {
 Status verdict(const Finished& finished, const profile::FdmMachine::Converter& converter,
                const std::string& where) {
     if (finished.spawn_error == ENOENT) {
-        return fail("convert.missing_program",
+        return fail("post.converter_missing",
                     "the converter '" + converter.program + "' is not installed", where,
                     "apt install " + converter.program);
     }
     if (finished.spawn_error != 0) {
         return fail(
-            "convert.failed",
+            "post.converter_failed",
             "cannot start '" + converter.program + "': " + std::strerror(finished.spawn_error),
             where);
     }
@@ -134,14 +134,14 @@ Status verdict(const Finished& finished, const profile::FdmMachine::Converter& c
         return decomp::cancelled();
     }
     if (finished.timed_out) {
-        return fail("convert.timeout",
+        return fail("post.converter_timeout",
                     "'" + converter.program + "' took more than " +
                         std::to_string(kConverterSeconds) + " s",
                     where);
     }
     if (!WIFEXITED(finished.exit_status) || WEXITSTATUS(finished.exit_status) != 0) {
         decomp::Error error{
-            "convert.failed", "'" + converter.program + "' failed", where, {}, {finished.output}};
+            "post.converter_failed", "'" + converter.program + "' failed", where, {}, {finished.output}};
         return fail(error);
     }
     return {};
@@ -152,7 +152,7 @@ Status verdict(const Finished& finished, const profile::FdmMachine::Converter& c
 Status convert(const fs::path& program, const fs::path& out,
                const profile::FdmMachine::Converter& converter, const decomp::Run& run) {
     if (converter.program.empty()) {
-        return fail("convert.not_configured", "the machine has no converter");
+        return fail("post.no_converter", "the machine has no converter");
     }
     std::error_code system_error;
     if (!fs::is_regular_file(program, system_error)) {
@@ -164,7 +164,7 @@ Status convert(const fs::path& program, const fs::path& out,
     Status status = verdict(finished, converter, program.string());
     if (status && (!fs::is_regular_file(temporary, system_error) ||
                    fs::file_size(temporary, system_error) == 0)) {
-        decomp::Error error{"convert.failed",
+        decomp::Error error{"post.converter_failed",
                             "'" + converter.program + "' wrote nothing",
                             program.string(),
                             {},

@@ -12,8 +12,8 @@ namespace cam::post {
 /// Runs the machine's converter (e.g. gpx) on a finished program, without a shell. The result
 /// appears under its name whole or not at all; what is there already is replaced. Waits at most
 /// `kConverterSeconds`.
-/// @error convert.not_configured, convert.missing_program (with the package to install),
-/// convert.failed (with what the converter said), convert.timeout, file.not_found, file.unwritable,
+/// @error post.no_converter, post.converter_missing (with the package to install),
+/// post.converter_failed (with what the converter said), post.converter_timeout, file.not_found, file.unwritable,
 /// run.cancelled
 [[nodiscard]] decomp::Status convert(const std::filesystem::path& program,
                                      const std::filesystem::path& out,

@@ -259,8 +259,8 @@ class Poster {
     /// The first and the last hundredth belong to the templates: some firmwares begin and end the
     /// build there.
     void progress() {
-        const double total = std::max(estimate_.seconds, 1e-9);
-        const int percent = std::clamp(static_cast<int>(100 * seconds_ / total), 1, 99);
+        const double share = estimate_.seconds > 0 ? seconds_ / estimate_.seconds : 0;
+        const int percent = std::clamp(static_cast<int>(100 * share), 1, 99);
         if (percent != percent_) {
             percent_ = percent;
             const double left = std::round((estimate_.seconds - seconds_) / 60);

@@ -54,7 +54,7 @@ class Expression {
     }
 
     [[nodiscard]] tl::unexpected<decomp::Error> syntax(const std::string& what) const {
-        return fail("template.syntax", what + " in {" + std::string(text_) + "}", {},
+        return fail("profile.template_syntax", what + " in {" + std::string(text_) + "}", {},
                     "placeholders are names, numbers, + - * / ( ), min(a, b) and max(a, b)");
     }
 
@@ -184,7 +184,7 @@ class Expression {
             for (const auto& [key, value] : values_) {
                 known.push_back(key);
             }
-            return fail("template.unknown_name", "unknown placeholder '" + name + "'", {},
+            return fail("profile.template_name", "unknown placeholder '" + name + "'", {},
                         decomp::did_you_mean(name, known));
         }
         if (!std::holds_alternative<double>(found->second)) {
@@ -255,7 +255,7 @@ Result<std::string> expand(std::string_view text, const TemplateValues& values) 
         }
         const std::size_t end = text.find('}', i);
         if (end == std::string_view::npos) {
-            return fail("template.syntax", "'}' is missing", {}, "write {{ for a brace");
+            return fail("profile.template_syntax", "'}' is missing", {}, "write {{ for a brace");
         }
         const Result<std::string> value =
             Expression(text.substr(i + 1, end - i - 1), values).evaluate();

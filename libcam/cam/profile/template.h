@@ -19,7 +19,7 @@ namespace cam::profile {
 using TemplateValues = std::map<std::string, std::variant<double, std::string>, std::less<>>;
 
 /// The text with every placeholder replaced; numbers have at most three decimals.
-/// @error template.unknown_name (with the nearest name), template.syntax
+/// @error profile.template_name (with the nearest name), profile.template_syntax
 [[nodiscard]] decomp::Result<std::string> expand(std::string_view text,
                                                  const TemplateValues& values);
 

@@ -32,20 +32,20 @@ TEST_F(Convert, RunsWithoutAShell) {
 TEST_F(Convert, AMissingProgramSaysWhatToInstall) {
     const auto status = convert(in_, out_, {"no-such-converter", "{in} {out}", "x3g"});
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().code, "convert.missing_program");
+    EXPECT_EQ(status.error().code, "post.converter_missing");
     EXPECT_EQ(status.error().hint, "apt install no-such-converter");
 }
 
 TEST_F(Convert, AFailureLeavesNothingBehindAndTellsWhatTheProgramSaid) {
     const auto status = convert(in_, out_, {"cp", "--no-such-option {in} {out}", "x3g"});
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().code, "convert.failed");
+    EXPECT_EQ(status.error().code, "post.converter_failed");
     ASSERT_FALSE(status.error().notes.empty());
     EXPECT_NE(status.error().notes.front().find("no-such-option"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(out_));
     const auto silent = convert(in_, out_, {"true", "{in} {out}", "x3g"});
     ASSERT_FALSE(silent);
-    EXPECT_EQ(silent.error().code, "convert.failed");
+    EXPECT_EQ(silent.error().code, "post.converter_failed");
 }
 
 TEST_F(Convert, StopsWhenTheRunIsCancelled) {
@@ -59,7 +59,7 @@ TEST_F(Convert, StopsWhenTheRunIsCancelled) {
 }
 
 TEST_F(Convert, NoConverterIsAnError) {
-    EXPECT_EQ(convert(in_, out_, Converter{}).error().code, "convert.not_configured");
+    EXPECT_EQ(convert(in_, out_, Converter{}).error().code, "post.no_converter");
 }
 
 TEST_F(Convert, GpxTakesAPostedProgramWithoutAWarning) {

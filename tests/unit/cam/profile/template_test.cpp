@@ -30,7 +30,7 @@ TEST(Template, ComputesWithTheUsualPrecedence) {
 TEST(Template, ReportsUnknownNamesWithTheNearest) {
     const auto result = expand("{bed_celcius}", values());
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, "template.unknown_name");
+    EXPECT_EQ(result.error().code, "profile.template_name");
     EXPECT_EQ(result.error().hint, "did you mean 'bed_celsius'?");
 }
 
