@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/cut/complex.h"
+
+#include "decomp/base/assert.h"
+#include "decomp/cut/build.h"
+#include "decomp/cut/cells.h"
+#include "decomp/cut/exact.h"
+#include "decomp/cut/shells.h"
+#include "decomp/cut/split.h"
+#include "decomp/cut/volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace decomp::cut {
+
+Complex::Complex(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Complex::Complex(const Complex& other) : state_(std::make_unique<State>(*other.state_)) {}
+
+Complex& Complex::operator=(const Complex& other) {
+    if (this != &other) {
+        state_ = std::make_unique<State>(*other.state_);
+    }
+    return *this;
+}
+
+Complex::Complex(Complex&&) noexcept = default;
+Complex& Complex::operator=(Complex&&) noexcept = default;
+Complex::~Complex() = default;
+
+Result<Complex> Complex::from_volume(const mesh::TriMesh& volume) {
+    auto state = std::make_unique<State>();
+    if (Status built = build_cells(volume, *state); !built) {
+        return fail(built.error());
+    }
+    return Complex(std::move(state));
+}
+
+std::int32_t Complex::region_count() const { return state_->regions; }
+
+Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part::Plane& plane) {
+    DECOMP_ASSERT(region >= 0 && region < state_->regions);
+    if (!plane.normal.allFinite() || plane.normal.isZero(0) || !std::isfinite(plane.offset_mm)) {
+        return fail("cut.bad_plane", "the plane has no normal or a coefficient that is not finite");
+    }
+    std::vector<part::Plane>& planes = state_->planes;
+    const auto known = std::find_if(planes.begin(), planes.end(), [&](const part::Plane& p) {
+        return p.normal == plane.normal && p.offset_mm == plane.offset_mm;
+    });
+    const bool is_new = known == planes.end();
+    const auto index = static_cast<std::int32_t>(known - planes.begin());
+    if (is_new) {
+        planes.push_back(plane);
+    }
+    Result<std::vector<std::int32_t>> ids = split_region(*state_, region, index);
+    if (is_new && (!ids || ids->size() == 1)) {
+        planes.pop_back();
+    }
+    return ids;
+}
+
+part::Plane Complex::nudged_off_vertices(std::int32_t region, const part::Plane& plane,
+                                         double step_mm) const {
+    const Cells& cells = *state_;
+    std::vector<std::int32_t> vertices;
+    std::vector<Ref> leaves;
+    for (const FaceSide& side : sides_of(cells, region)) {
+        cells.expand(cells.face(side.face), leaves);
+        for (const Ref leaf : leaves) {
+            vertices.push_back(cells.tail(leaf));
+        }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const double length = plane.normal.norm();
+    part::Plane best = plane;
+    double best_clearance = -1;
+    for (const int steps : {0, 1, -1, 2, -2, 3, -3, 4, -4}) {
+        const part::Plane moved{plane.normal, plane.offset_mm + steps * step_mm * length};
+        double clearance = HUGE_VAL;
+        for (const std::int32_t vertex : vertices) {
+            const double distance =
+                std::abs(moved.normal.dot(cells.point(vertex)) - moved.offset_mm) / length;
+            if (distance < clearance &&
+                (distance > 1e-3 * step_mm || side_of_plane(cells, vertex, moved) != 0)) {
+                clearance = distance;
+            }
+        }
+        if (clearance > best_clearance) {
+            best = moved;
+            best_clearance = clearance;
+        }
+        if (clearance >= step_mm / 2) {
+            break;
+        }
+    }
+    return best;
+}
+
+void Complex::merge(std::int32_t into, std::int32_t from) {
+    DECOMP_ASSERT(into >= 0 && into < state_->regions && from >= 0 && from < state_->regions);
+    if (into == from) {
+        return;
+    }
+    for (Face& face : state_->faces) {
+        face.inside = face.inside == from ? into : face.inside;
+        face.outside = face.outside == from ? into : face.outside;
+    }
+    std::erase_if(state_->faces, [](const Face& face) { return face.inside == face.outside; });
+}
+
+bool Complex::is_empty(std::int32_t region) const {
+    return std::none_of(state_->faces.begin(), state_->faces.end(),
+                        [&](const Face& face) { return face.bounds(region); });
+}
+
+double Complex::volume_mm3(std::int32_t region) const {
+    return approximate_volume(*state_, sides_of(*state_, region));
+}
+
+std::string Complex::exact_volume_mm3(std::int32_t region) const {
+    return exact_volume(*state_, sides_of(*state_, region));
+}
+
+bool Complex::volumes_sum_exactly() const { return tiles_input_exactly(*state_); }
+
+}  // namespace decomp::cut
