@@ -140,8 +140,11 @@ Status verdict(const Finished& finished, const profile::FdmMachine::Converter& c
                     where);
     }
     if (!WIFEXITED(finished.exit_status) || WEXITSTATUS(finished.exit_status) != 0) {
-        decomp::Error error{
-            "post.converter_failed", "'" + converter.program + "' failed", where, {}, {finished.output}};
+        decomp::Error error{"post.converter_failed",
+                            "'" + converter.program + "' failed",
+                            where,
+                            {},
+                            {finished.output}};
         return fail(error);
     }
     return {};

@@ -13,8 +13,8 @@ namespace cam::post {
 /// appears under its name whole or not at all; what is there already is replaced. Waits at most
 /// `kConverterSeconds`.
 /// @error post.no_converter, post.converter_missing (with the package to install),
-/// post.converter_failed (with what the converter said), post.converter_timeout, file.not_found, file.unwritable,
-/// run.cancelled
+/// post.converter_failed (with what the converter said), post.converter_timeout, file.not_found,
+/// file.unwritable, run.cancelled
 [[nodiscard]] decomp::Status convert(const std::filesystem::path& program,
                                      const std::filesystem::path& out,
                                      const profile::FdmMachine::Converter& converter,

@@ -29,7 +29,8 @@ struct Program {
 /// second.
 /// @param on_bed  in the machine's coordinates, layers in ascending order
 /// @error post.empty (no bead), post.bad_layer (heights that do not rise, numbers that are none),
-/// post.outside_chamber, post.forbidden_word, profile.template_name, profile.template_syntax, run.cancelled
+/// post.outside_chamber, post.forbidden_word, profile.template_name, profile.template_syntax,
+/// run.cancelled
 [[nodiscard]] decomp::Result<Program> post_fdm(const path::LayerStack& on_bed,
                                                const profile::FdmSetup& setup,
                                                const PostOptions& options, const decomp::Run& run);
