@@ -2,6 +2,7 @@
 #include "cam/fdm/layer_beads.h"
 
 #include "cam/fdm/infill.h"
+#include "cam/fdm/medial.h"
 #include "cam/fdm/order.h"
 #include "cam/polygon/boolean.h"
 #include "cam/polygon/offset.h"
@@ -26,6 +27,10 @@ constexpr double kSolidLinkSpacings = 3;    // solid lines are linked over at mo
 constexpr double kSparseLinkSpacings = 4;   // sparse lines likewise, of their own spacing
 constexpr double kInterfaceSpacings = 1.5;  // lines of support under the part, by bead spacings
 constexpr double kOutputToleranceMm = 0.004;
+constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
+constexpr double kLeastStripMm = 0.12;      // narrower strips are left to their neighbours
+constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
+constexpr double kWidthStepMm = 0.06;       // by which the width of a tapering bead changes
 
 Speed speed_of(Feature feature, const Process& process) {
     switch (feature) {
@@ -66,10 +71,27 @@ Paths filled(const Paths& region) {
     return polygon::region_of(outers);
 }
 
+/// The middle line of something as long as it is wide: along its longer side.
+MedialLine middle_of(const Paths& blob) {
+    constexpr double kShortestMm = 0.1;
+    const polygon::Box box = polygon::bounds(blob);
+    const Eigen::Vector2d low = polygon::to_mm(box.min);
+    const Eigen::Vector2d size = polygon::to_mm(box.max) - low;
+    const int longer = size.x() >= size.y() ? 0 : 1;
+    const double width = size[1 - longer];
+    Eigen::Vector2d half(0, 0);
+    half[longer] = std::max(size[longer] - width, kShortestMm) / 2;
+    const Eigen::Vector2d middle = low + size / 2;
+    return {{middle - half, width}, {middle + half, width}};
+}
+
 class LayerBeads {
   public:
-    LayerBeads(const PartLayer& layer, std::size_t index, const Process& process)
-        : layer_(layer), index_(index), process_(process) {}
+    LayerBeads(const PartLayer& layer, std::size_t index, const profile::FdmMachine& machine)
+        : layer_(layer),
+          index_(index),
+          process_(machine.process),
+          least_width_mm_(kLeastWidthNozzles * machine.nozzle.diameter_mm) {}
 
     std::vector<Bead> beads() {
         if (index_ == 0) {
@@ -157,6 +179,8 @@ class LayerBeads {
         }
         by_island_.resize(islands_.size());
         add_walls();
+        add_single_beads(Feature::OuterWall, layer_.walls.thin, 0);
+        add_single_beads(Feature::SolidInfill, layer_.walls.gaps, layer_.bead.rounding_mm());
         add_solid();
         add_bridges();
         add_sparse();
@@ -183,6 +207,25 @@ class LayerBeads {
                 IslandBeads& island = island_of(points.front());
                 (depth == 0 ? island.outer_walls : island.inner_walls)
                     .push_back(bead(feature, std::move(points)));
+            }
+        }
+    }
+
+    /// One bead along the middle of each strip. `rounding_mm` makes up for the round flanks where a
+    /// strip lies between other beads.
+    void add_single_beads(Feature feature, const Paths& strips, double rounding_mm) {
+        for (const auto& island : polygon::islands(polygon::opened(strips, kLeastStripMm / 2))) {
+            const Paths strip = island.loops();
+            auto lines = medial_lines(strip, kLeastStripMm);
+            if (lines.empty() && polygon::area_mm2(strip) >= kLeastDotMm2) {
+                lines.push_back(middle_of(strip));
+            }
+            for (const MedialLine& line : lines) {
+                for (MedialPiece& piece : pieces_of_one_width(line, kWidthStepMm)) {
+                    IslandBeads& owner = island_of(piece.points.front());
+                    Bead& single = owner.gaps.emplace_back(bead(feature, std::move(piece.points)));
+                    single.width_mm = std::max(piece.width_mm + rounding_mm, least_width_mm_);
+                }
             }
         }
     }
@@ -245,6 +288,7 @@ class LayerBeads {
     const PartLayer& layer_;
     std::size_t index_;
     const Process& process_;
+    double least_width_mm_;
     std::vector<polygon::Island> islands_;
     std::vector<polygon::Box> island_boxes_;
     std::vector<IslandBeads> by_island_;
@@ -253,8 +297,9 @@ class LayerBeads {
 
 }  // namespace
 
-std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index, const Process& process) {
-    return LayerBeads(layer, index, process).beads();
+std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index,
+                             const profile::FdmMachine& machine) {
+    return LayerBeads(layer, index, machine).beads();
 }
 
 }  // namespace cam::fdm

@@ -14,6 +14,6 @@ namespace cam::fdm {
 /// then the part island by island. @param index  of the layer, from 0; decides on angles and on
 /// first-layer speed
 [[nodiscard]] std::vector<path::Bead> make_beads(const PartLayer& layer, std::size_t index,
-                                                 const profile::FdmMachine::Process& process);
+                                                 const profile::FdmMachine& machine);
 
 }  // namespace cam::fdm

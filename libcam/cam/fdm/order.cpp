@@ -170,7 +170,8 @@ void append(std::vector<Bead> beads, Vector2d& at, std::vector<Bead>& out) {
 
 double squared_distance(const IslandBeads& island, const Vector2d& at) {
     double least = -1;
-    for (const auto* beads : {&island.inner_walls, &island.outer_walls, &island.fill}) {
+    for (const auto* beads :
+         {&island.inner_walls, &island.outer_walls, &island.gaps, &island.fill}) {
         for (const Bead& bead : *beads) {
             for (const Vector2d& p : bead.points) {
                 const double d = squared(p, at);
@@ -224,6 +225,7 @@ std::vector<Bead> ordered(std::vector<IslandBeads> islands, const Vector2d& star
             start_at(loop, seam_vertex(loop));
         }
         append(nearest_first(std::move(island.outer_walls), at), at, out);
+        append(ordered_by_travel(std::move(island.gaps), at), at, out);
         append(ordered_by_travel(std::move(island.fill), at), at, out);
     }
     return out;

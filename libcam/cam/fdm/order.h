@@ -13,6 +13,7 @@ namespace cam::fdm {
 struct IslandBeads {
     std::vector<path::Bead> inner_walls;
     std::vector<path::Bead> outer_walls;
+    std::vector<path::Bead> gaps;  ///< single beads in thin walls and between walls
     std::vector<path::Bead> fill;
 };
 

@@ -139,7 +139,7 @@ decomp::Result<path::LayerStack> plan_part(const decomp::mesh::TriMesh& part_on_
         path::Layer& out = stack.layers[i];
         out.z_mm = layers[i].top_mm;
         out.height_mm = layers[i].bead.height_mm;
-        out.beads = make_beads(layers[i], i, process);
+        out.beads = make_beads(layers[i], i, setup.machine);
     });
     if (run.cancelled()) {
         return decomp::cancelled();

@@ -75,6 +75,31 @@ TEST(PlanPart, FullInfillHasTheVolumeOfTheMesh) {
     EXPECT_NEAR(volume / 4020, 1, 0.01);
 }
 
+TEST(PlanPart, AWallThinnerThanTwoBeadsIsOneBeadOfItsWidth) {
+    for (const double width : {0.3, 0.45, 0.6}) {
+        const auto stack = plan_part(tests::box({-10, 0, 0}, {10, width, 2}), setup(), {});
+        ASSERT_TRUE(stack);
+        ASSERT_EQ(stack->layers[4].beads.size(), 1U) << width;
+        EXPECT_NEAR(stack->layers[4].beads[0].width_mm, width, 1e-3);
+        EXPECT_EQ(stack->layers[4].beads[0].feature, Feature::OuterWall);
+    }
+}
+
+TEST(PlanPart, EveryLayerOfASpireHasABead) {
+    auto spire = tests::box({-2, -2, 0}, {2, 2, 10});
+    for (auto& p : spire.points) {
+        if (p.z() > 5) {
+            p.x() *= 0.05;
+            p.y() *= 0.05;
+        }
+    }
+    const auto stack = plan_part(spire, setup(), {});
+    ASSERT_TRUE(stack);
+    for (const auto& layer : stack->layers) {
+        EXPECT_FALSE(layer.beads.empty()) << layer.z_mm;
+    }
+}
+
 TEST(PlanPart, TopAndBottomAreSolidAndTheMiddleIsSparse) {
     const auto stack = plan_part(tests::box({-15, -15, 0}, {15, 15, 6.05}), setup(), {});
     ASSERT_TRUE(stack);
