@@ -50,6 +50,10 @@ Speed speed_of(Feature feature, const Process& process) {
     }
 }
 
+Angle turned_90(Angle angle) {
+    return Angle::radians(angle.radians() + Angle::degrees(90).radians());
+}
+
 Line closed_line(const polygon::Path& loop) {
     Line points;
     points.reserve(loop.size() + 1);
@@ -252,7 +256,7 @@ class LayerBeads {
                                                                            : Feature::SolidInfill;
     }
 
-    /// The lines of one layer lie across those of the next.
+    /// The solid lines of one layer lie across those of the next.
     Angle layer_angle() const {
         return index_ % 2 == 0
                    ? process_.infill_angle
@@ -280,9 +284,14 @@ class LayerBeads {
         if (process_.infill_density <= 0 || layer_.interior.sparse.empty()) {
             return;
         }
-        const double spacing = layer_.bead.spacing_mm() / process_.infill_density;
-        add_fill(Feature::SparseInfill, layer_.interior.sparse,
-                 {spacing, layer_angle(), kSparseLinkSpacings * spacing});
+        // A grid: both directions on every layer, so that each line lies on the line of the layer
+        // below.
+        const double spacing = 2 * layer_.bead.spacing_mm() / process_.infill_density;
+        const FillPattern along{spacing, process_.infill_angle, kSparseLinkSpacings * spacing};
+        FillPattern across = along;
+        across.angle = turned_90(process_.infill_angle);
+        add_fill(Feature::SparseInfill, layer_.interior.sparse, along);
+        add_fill(Feature::SparseInfill, layer_.interior.sparse, across);
     }
 
     const PartLayer& layer_;
