@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kOnHull = 1e-6;       // of the diagonal
 constexpr double kSameNormal = 1e-3;   // radians
+constexpr double kMeantAsAxis = 1e-9;  // radians
 constexpr double kLeastShare = 0.005;  // of the surface: a flat worth standing on
 
 /// The facets of one side of one cut plane.
@@ -53,7 +54,7 @@ Eigen::Vector3d snapped_to_axis(const Eigen::Vector3d& direction) {
     direction.cwiseAbs().maxCoeff(&axis);
     Eigen::Vector3d unit = Eigen::Vector3d::Zero();
     unit[axis] = direction[axis] < 0 ? -1 : 1;
-    return (unit - direction).norm() < 1e-9 ? unit : direction;
+    return (unit - direction).norm() < kMeantAsAxis ? unit : direction;
 }
 
 bool on_hull(const decomp::mesh::TriMesh& mesh, const Eigen::Vector3d& normal,

@@ -36,6 +36,9 @@ constexpr double kOnPlate = 0.02;       // mm: facets this low lie on the plate
 constexpr double kLevel = 0.9999;       // cosine: facets this level belong to a base
 constexpr double kSameSupport = 1e-6;   // of the surface
 constexpr double kExactlyFull = 1e-12;  // relative room for rounding
+constexpr double kDownward = 1e-12;     // a unit vector so near to -Z is it
+constexpr double kWholeNumber = 1e-9;   // a quotient so little above a whole number is it
+constexpr double kLeastRoomMm = 1e-9;   // keeps quotients finite when margins eat the plate
 constexpr std::array<const char*, 3> kConstraints{"chamber.x", "chamber.y", "chamber.z"};
 
 /// What all poses of one part share.
@@ -79,7 +82,7 @@ Eigen::Matrix3d standing_on(const Eigen::Vector3d& down) {
     if (z == Eigen::Vector3d::UnitZ()) {
         return Eigen::Matrix3d::Identity();
     }
-    if (z.z() < -1 + 1e-12) {
+    if (z.z() < -1 + kDownward) {
         return Eigen::Vector3d(1, -1, -1).asDiagonal();  // half a turn about X
     }
     // Rodrigues for the rotation of z to (0, 0, 1) about z x e3.
@@ -153,7 +156,7 @@ BuildChoice build_on(const Surface& surface, const Stand& stand,
     }
     const Eigen::Vector3d usable = usable_mm(machine);
     const std::vector<Eigen::Vector2d> hull = convex_hull(shadow);
-    const Turned turned = best_turn(hull, usable.head<2>().cwiseMax(1e-9));
+    const Turned turned = best_turn(hull, usable.head<2>().cwiseMax(kLeastRoomMm));
     const std::vector<Eigen::Vector2d> base_hull = convex_hull(contact);
     choice.footprint_mm2 = polygon_area(hull);
     choice.size_mm = {turned.size.x(), turned.size.y(), top - floor};
@@ -183,7 +186,7 @@ BuildChoice build_on(const Surface& surface, const Stand& stand,
 double chambers(const BuildChoice& choice) {
     double product = 1;
     for (const Violation& violation : choice.violations) {
-        product *= std::ceil(violation.by_ratio - 1e-9);
+        product *= std::ceil(violation.by_ratio - kWholeNumber);
     }
     return product;
 }
@@ -265,7 +268,7 @@ double border_mm(const profile::FdmMachine& machine) {
     const auto& process = machine.process;
     const double line = process.first_layer_line_width_mm;
     if (process.brim_width_mm > 0) {
-        return std::ceil(process.brim_width_mm / line - 1e-9) * line;
+        return std::ceil(process.brim_width_mm / line - kWholeNumber) * line;
     }
     return process.skirt_loops > 0 ? process.skirt_distance_mm + process.skirt_loops * line : 0;
 }

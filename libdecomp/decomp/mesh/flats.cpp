@@ -14,9 +14,11 @@ namespace decomp::mesh {
 
 namespace {
 
-constexpr int kGrid = 24;            // cells along an edge of a cube face
-constexpr std::size_t kPeaks = 24;   // normals tried
-constexpr double kFirstCone = 0.05;  // radians
+constexpr int kGrid = 24;              // cells along an edge of a cube face
+constexpr std::size_t kPeaks = 24;     // normals tried
+constexpr double kFirstCone = 0.05;    // radians
+constexpr double kMeantAsAxis = 1e-7;  // radians
+constexpr double kSameArea = 1e-12;    // relative
 
 struct Facets {
     std::vector<Eigen::Vector3d> unit;  // zero for a degenerate triangle
@@ -100,7 +102,7 @@ Eigen::Vector3d narrowed(const Facets& facets, Eigen::Vector3d normal, double la
     for (int axis = 0; axis < 3; ++axis) {
         Eigen::Vector3d unit = Eigen::Vector3d::Zero();
         unit[axis] = normal[axis] < 0 ? -1 : 1;
-        if ((unit - normal).norm() < 1e-7) {
+        if ((unit - normal).norm() < kMeantAsAxis) {
             normal = unit;  // what was meant as an axis is one
         }
     }
@@ -139,7 +141,7 @@ Flat heaviest_level(const TriMesh& mesh, const Facets& facets, const Eigen::Vect
             area -= levels[first++].area;
         }
         // Equal areas: the outer level, on which the shape may stand.
-        if (area >= best.area_mm2 * (1 - 1e-12)) {
+        if (area >= best.area_mm2 * (1 - kSameArea)) {
             best.area_mm2 = area;
             best.offset_mm = levels[last].high;
         }

@@ -14,6 +14,7 @@ namespace {
 constexpr double kSameDirection = 0.9998;  // cosine of about 1 degree
 constexpr double kLargeFlat = 0.03;        // of the area: what is worth cutting parallel to
 constexpr std::size_t kMostFlats = 6;
+constexpr double kLeastGain = 1e-9;  // relative: a smaller section by less is rounding
 
 /// A plane by its tilt about two fixed axes and its distance from a fixed pivot.
 struct Tilted {
@@ -100,7 +101,7 @@ part::Plane refined_neck(const mesh::TriMesh& mesh, const part::Plane& start,
                     continue;
                 }
                 const double area = section_area(mesh, tilted.plane(tried));
-                if (area > 0 && area < least * (1 - 1e-9)) {
+                if (area > 0 && area < least * (1 - kLeastGain)) {
                     best = tried;
                     least = area;
                     better = true;

@@ -166,7 +166,8 @@ TEST(Orient, ThePoseJudgedIsThePoseOfThePlacedMesh) {
     const Part part = whole(tests::box({3, 4, 5}, {43, 114, 50}));
     const auto verdict = cam::orient::fdm_judge(setup)(part, Fidelity::Exact);
     ASSERT_TRUE(verdict.ok());
-    const Eigen::Vector3d size = decomp::mesh::bounds(cam::orient::placed(part, verdict.best_pose)).sizes();
+    const Eigen::Vector3d size =
+        decomp::mesh::bounds(cam::orient::placed(part, verdict.best_pose)).sizes();
     EXPECT_LE(size.x(), 120);
     EXPECT_LE(size.y(), 60);
     EXPECT_LE(size.z(), 50);
