@@ -18,13 +18,6 @@ void Cells::expand_edge(Ref ref, std::vector<Ref>& leaves) const {
     }
 }
 
-void Cells::expand(const Face& face, std::vector<Ref>& leaves) const {
-    leaves.clear();
-    for (std::uint32_t i = face.begin; i < face.begin + face.count; ++i) {
-        expand_edge(loops[i], leaves);
-    }
-}
-
 void Cells::set_loop(std::int32_t index, const std::vector<Ref>& loop) {
     Face& f = faces[static_cast<std::size_t>(index)];
     f.begin = static_cast<std::uint32_t>(loops.size());

@@ -132,7 +132,21 @@ struct Cells {
 
     /// The unsplit edges of a face, in the order of its loop; lone vertices included. Clears
     /// `leaves` first.
-    void expand(const Face& face, std::vector<Ref>& leaves) const;
+    void expand(const Face& face, std::vector<Ref>& leaves) const {
+        leaves.clear();
+        append_leaves(face, leaves);
+    }
+
+    /// The same, after what is there.
+    void append_leaves(const Face& face, std::vector<Ref>& leaves) const {
+        for (std::uint32_t i = face.begin; i < face.begin + face.count; ++i) {
+            if (edge(loops[i]).is_leaf()) {
+                leaves.push_back(loops[i]);
+            } else {
+                expand_edge(loops[i], leaves);
+            }
+        }
+    }
 
     std::int32_t add_face(Carrier carrier, std::int32_t inside, std::int32_t outside,
                           const std::vector<Ref>& loop);

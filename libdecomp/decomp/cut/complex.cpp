@@ -15,6 +15,13 @@
 
 namespace decomp::cut {
 
+namespace {
+
+/// A vertex farther from a plane than this many steps is not on it.
+constexpr double kCloseSteps = 1e-3;
+
+}  // namespace
+
 Complex::Complex(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Complex::Complex(const Complex& other) : state_(std::make_unique<State>(*other.state_)) {}
@@ -84,7 +91,7 @@ part::Plane Complex::nudged_off_vertices(std::int32_t region, const part::Plane&
             const double distance =
                 std::abs(moved.normal.dot(cells.point(vertex)) - moved.offset_mm) / length;
             if (distance < clearance &&
-                (distance > 1e-3 * step_mm || side_of_plane(cells, vertex, moved) != 0)) {
+                (distance > kCloseSteps * step_mm || side_of_plane(cells, vertex, moved) != 0)) {
                 clearance = distance;
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/cut/exact.h"
 
+#include "decomp/cut/ball.h"
 #include "decomp/cut/construct.h"
 
 #include <Eigen/Geometry>
@@ -8,12 +9,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace decomp::cut {
 
 namespace {
 
 using Rational = mpq_class;
+
+/// Bounds of the double filters, relative to the magnitudes that enter. A coordinate is off by half
+/// a unit in the last place (1.1e-16); the expressions below add at most a dozen roundings.
+constexpr double kFilter = 4e-15;
+constexpr double kCircleFilter = 6e-14;
+constexpr double kSquaredRounding = 1e-30;
+/// Below this sine of its angle the direction of a triangle's normal is taken exactly.
+constexpr double kFlatSine = 1e-14;
+
+/// Sign of an expression over a field, first as a ball, then as a fraction.
+template <class Expression>
+int sign_of(const Expression& expression) {
+    const int sign = expression(std::type_identity<Ball>{}).sign();
+    return sign != 0 ? sign : sgn(expression(std::type_identity<Rational>{}));
+}
 
 /// Nearest double; the truncated one when both are equally near.
 double nearest_double(const Rational& value) {
@@ -24,17 +41,48 @@ double nearest_double(const Rational& value) {
     return abs(twice) > abs(middle) ? next : low;
 }
 
-double& at(Eigen::Vector3d& p, int axis) { return p[axis]; }
+template <class F>
+using Flat = std::array<F, 2>;
+
+template <class F>
+Flat<F> flat_point(const Cells& cells, Projection projection, std::int32_t vertex) {
+    const Vec<F> p = exact_point<F>(cells, vertex);
+    return {p[static_cast<std::size_t>(projection.u)], p[static_cast<std::size_t>(projection.v)]};
+}
+
+template <class F>
+Flat<F> flat_minus(const Flat<F>& a, const Flat<F>& b) {
+    return {F(a[0] - b[0]), F(a[1] - b[1])};
+}
+
+/// Positive when the origin lies inside the circle through three points given counter-clockwise.
+template <class F>
+F circle_determinant(const std::array<Flat<F>, 3>& p) {
+    F sum(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Flat<F>& a = p.at(i);
+        const Flat<F>& b = p.at((i + 1) % 3);
+        const Flat<F>& c = p.at((i + 2) % 3);
+        sum += F(F(a[0] * a[0] + a[1] * a[1]) * F(b[0] * c[1] - b[1] * c[0]));
+    }
+    return sum;
+}
+
+bool is_clearly_turned(const Eigen::Vector3d& normal, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b) {
+    return normal.cwiseAbs().maxCoeff() >
+           kFlatSine * a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
+}
 
 }  // namespace
 
 Eigen::Vector3d rounded_point(const Cells& cells, std::int32_t vertex) {
-    const Vec<Rational> exact = exact_point<Rational>(cells, vertex);
-    Eigen::Vector3d out;
-    for (int k = 0; k < 3; ++k) {
-        at(out, k) = nearest_double(exact[static_cast<std::size_t>(k)]);
+    const Vec<Ball> near = exact_point<Ball>(cells, vertex);
+    if (near[0].rounds_to_high() && near[1].rounds_to_high() && near[2].rounds_to_high()) {
+        return {near[0].high(), near[1].high(), near[2].high()};
     }
-    return out;
+    const Vec<Rational> exact = exact_point<Rational>(cells, vertex);
+    return {nearest_double(exact[0]), nearest_double(exact[1]), nearest_double(exact[2])};
 }
 
 int side_of_plane(const Cells& cells, std::int32_t vertex, const part::Plane& plane) {
@@ -43,15 +91,14 @@ int side_of_plane(const Cells& cells, std::int32_t vertex, const part::Plane& pl
     const double v = plane.normal.y() * x.y();
     const double w = plane.normal.z() * x.z();
     const double height = u + v + w - plane.offset_mm;
-    // Half a unit in the last place of each coordinate and four roundings: below 1e-15 of the sum
-    // of magnitudes.
     const double bound =
-        2e-15 * (std::abs(u) + std::abs(v) + std::abs(w) + std::abs(plane.offset_mm));
+        kFilter * (std::abs(u) + std::abs(v) + std::abs(w) + std::abs(plane.offset_mm));
     if (std::abs(height) > bound) {
         return height > 0 ? 1 : -1;
     }
-    const Vec<Rational> point = exact_point<Rational>(cells, vertex);
-    return sgn(Rational(dot<Rational>(vec<Rational>(plane.normal), point) - plane.offset_mm));
+    return sign_of([&]<class F>(std::type_identity<F>) {
+        return F(dot<F>(vec<F>(plane.normal), exact_point<F>(cells, vertex)) - F(plane.offset_mm));
+    });
 }
 
 int side_of_plane(const Cells& cells, std::int32_t vertex, std::int32_t plane) {
@@ -75,8 +122,10 @@ int compare_coordinate(const Cells& cells, std::int32_t a, std::int32_t b, int a
     if (a == b || (cells.is_input(a) && cells.is_input(b))) {
         return 0;
     }
-    const auto k = static_cast<std::size_t>(axis);
-    return sgn(Rational(exact_point<Rational>(cells, a)[k] - exact_point<Rational>(cells, b)[k]));
+    return sign_of([&]<class F>(std::type_identity<F>) {
+        const auto k = static_cast<std::size_t>(axis);
+        return F(exact_point<F>(cells, a)[k] - exact_point<F>(cells, b)[k]);
+    });
 }
 
 bool lexicographically_less(const Cells& cells, std::int32_t a, std::int32_t b) {
@@ -107,20 +156,42 @@ int turn(const Cells& cells, Projection projection, std::int32_t a, std::int32_t
     const double size = std::max({std::abs(pa[u]), std::abs(pa[v]), std::abs(pb[u]),
                                   std::abs(pb[v]), std::abs(pc[u]), std::abs(pc[v])});
     const double spread = std::abs(bu) + std::abs(bv) + std::abs(cu) + std::abs(cv);
-    const double bound =
-        2e-15 * (size * spread + std::abs(bu * cv) + std::abs(bv * cu)) + 1e-30 * size * size;
-    if (area > bound) {
-        return 1;
+    const double bound = kFilter * (size * spread + std::abs(bu * cv) + std::abs(bv * cu)) +
+                         kSquaredRounding * size * size;
+    if (std::abs(area) > bound) {
+        return area > 0 ? 1 : -1;
     }
-    if (area < -bound) {
-        return -1;
+    return sign_of([&]<class F>(std::type_identity<F>) {
+        const Flat<F> o = flat_point<F>(cells, projection, a);
+        const Flat<F> p = flat_minus<F>(flat_point<F>(cells, projection, b), o);
+        const Flat<F> q = flat_minus<F>(flat_point<F>(cells, projection, c), o);
+        return F(p[0] * q[1] - p[1] * q[0]);
+    });
+}
+
+int in_circle(const Cells& cells, Projection projection, const std::array<std::int32_t, 4>& v) {
+    const Eigen::Vector3d& origin = cells.point(v[3]);
+    std::array<Flat<double>, 3> d{};
+    double spread = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3d& p = cells.point(v.at(i));
+        d.at(i) = {p[projection.u] - origin[projection.u], p[projection.v] - origin[projection.v]};
+        spread = std::max({spread, std::abs(d.at(i)[0]), std::abs(d.at(i)[1])});
     }
-    const Vec<Rational> ea = exact_point<Rational>(cells, a);
-    const Vec<Rational> ab = minus<Rational>(exact_point<Rational>(cells, b), ea);
-    const Vec<Rational> ac = minus<Rational>(exact_point<Rational>(cells, c), ea);
-    const auto iu = static_cast<std::size_t>(u);
-    const auto iv = static_cast<std::size_t>(v);
-    return sgn(Rational(ab[iu] * ac[iv] - ab[iv] * ac[iu]));
+    const double size =
+        spread + std::max(std::abs(origin[projection.u]), std::abs(origin[projection.v]));
+    const double near = circle_determinant<double>(d);
+    if (std::abs(near) > kCircleFilter * size * spread * spread * spread) {
+        return near > 0 ? 1 : -1;
+    }
+    return sign_of([&]<class F>(std::type_identity<F>) {
+        const Flat<F> o = flat_point<F>(cells, projection, v[3]);
+        std::array<Flat<F>, 3> e;
+        for (std::size_t i = 0; i < 3; ++i) {
+            e.at(i) = flat_minus<F>(flat_point<F>(cells, projection, v.at(i)), o);
+        }
+        return circle_determinant<F>(e);
+    });
 }
 
 Projection projection_of(const Cells& cells, Carrier carrier) {
@@ -133,8 +204,7 @@ Projection projection_of(const Cells& cells, Carrier carrier) {
         const Eigen::Vector3d ab = cells.input->points[t[1]] - cells.input->points[t[0]];
         const Eigen::Vector3d ac = cells.input->points[t[2]] - cells.input->points[t[0]];
         normal = ab.cross(ac);
-        certain = normal.cwiseAbs().maxCoeff() >
-                  1e-14 * ab.cwiseAbs().maxCoeff() * ac.cwiseAbs().maxCoeff();
+        certain = is_clearly_turned(normal, ab, ac);
     }
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
@@ -154,16 +224,16 @@ Projection projection_of(const Cells& cells, Carrier carrier) {
 }
 
 int compare_directions(const Cells& cells, Carrier carrier, std::int32_t plane) {
-    const Vec<Rational> a = exact_plane<Rational>(cells, carrier).normal;
-    const Vec<Rational> b = exact_plane<Rational>(cells, {plane, true}).normal;
-    return sgn(dot<Rational>(a, b));
+    return sign_of([&]<class F>(std::type_identity<F>) {
+        return dot<F>(exact_plane<F>(cells, carrier).normal,
+                      exact_plane<F>(cells, {plane, true}).normal);
+    });
 }
 
 bool is_flat(const mesh::TriMesh& mesh, const mesh::Triangle& triangle) {
     const Eigen::Vector3d ab = mesh.points[triangle[1]] - mesh.points[triangle[0]];
     const Eigen::Vector3d ac = mesh.points[triangle[2]] - mesh.points[triangle[0]];
-    if (ab.cross(ac).cwiseAbs().maxCoeff() >
-        1e-14 * ab.cwiseAbs().maxCoeff() * ac.cwiseAbs().maxCoeff()) {
+    if (is_clearly_turned(ab.cross(ac), ab, ac)) {
         return false;
     }
     const Vec<Rational> a = vec<Rational>(mesh.points[triangle[0]]);

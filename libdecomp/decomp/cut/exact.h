@@ -3,9 +3,10 @@
 
 #include "decomp/cut/cells.h"
 
+#include <array>
 #include <cstdint>
 
-/// Exact predicates: doubles with an error bound first, rationals where the bound does not decide.
+/// Exact predicates: doubles with an error bound first, then balls, then fractions.
 namespace decomp::cut {
 
 /// Two coordinate axes, chosen so that counter-clockwise about the carrier's normal is
@@ -32,6 +33,11 @@ struct Projection {
 /// Sign of the turn a, b, c in the projection: +1 counter-clockwise.
 [[nodiscard]] int turn(const Cells& cells, Projection projection, std::int32_t a, std::int32_t b,
                        std::int32_t c);
+
+/// +1 when the fourth vertex lies inside the circle through the first three, given
+/// counter-clockwise in the projection; 0 on it.
+[[nodiscard]] int in_circle(const Cells& cells, Projection projection,
+                            const std::array<std::int32_t, 4>& vertices);
 
 /// Sign of the dot product of the normals of a carrier and a plane.
 [[nodiscard]] int compare_directions(const Cells& cells, Carrier carrier, std::int32_t plane);

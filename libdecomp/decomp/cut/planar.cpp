@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/cut/planar.h"
 
-#include "decomp/cut/construct.h"
-
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_2.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -17,8 +14,86 @@ namespace decomp::cut {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Number = Kernel::FT;
+/// A vertex in the projection. CGAL asks everything of it through the traits, which go by the
+/// vertex.
+struct Site {
+    std::int32_t vertex = -1;
+};
+
+/// Geometry for CGAL's triangulation: our own exact predicates on vertices.
+struct SiteTraits {
+    using Point_2 = Site;
+    using Segment_2 = std::pair<Site, Site>;
+    using Triangle_2 = std::array<Site, 3>;
+    using FT = double;
+
+    const Cells* cells = nullptr;
+    Projection projection;
+
+    struct Compare {
+        const Cells* cells;
+        int axis;
+
+        CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
+            return CGAL::sign(compare_coordinate(*cells, a.vertex, b.vertex, axis));
+        }
+    };
+
+    struct Less {
+        Compare compare;
+
+        bool operator()(const Site& a, const Site& b) const { return compare(a, b) < 0; }
+    };
+
+    struct Turn {
+        const Cells* cells;
+        Projection projection;
+
+        CGAL::Orientation operator()(const Site& a, const Site& b, const Site& c) const {
+            return CGAL::sign(turn(*cells, projection, a.vertex, b.vertex, c.vertex));
+        }
+    };
+
+    struct Circle {
+        const Cells* cells;
+        Projection projection;
+
+        CGAL::Oriented_side operator()(const Site& a, const Site& b, const Site& c,
+                                       const Site& d) const {
+            return CGAL::sign(
+                in_circle(*cells, projection, {a.vertex, b.vertex, c.vertex, d.vertex}));
+        }
+    };
+
+    struct Same {
+        const Site& operator()(const Site& site) const { return site; }
+    };
+
+    using Compare_x_2 = Compare;
+    using Compare_y_2 = Compare;
+    using Less_x_2 = Less;
+    using Less_y_2 = Less;
+    using Orientation_2 = Turn;
+    using Side_of_oriented_circle_2 = Circle;
+    using Construct_point_2 = Same;
+
+    // NOLINTBEGIN(readability-identifier-naming): the names are CGAL's
+    [[nodiscard]] Compare compare_x_2_object() const { return {cells, projection.u}; }
+
+    [[nodiscard]] Compare compare_y_2_object() const { return {cells, projection.v}; }
+
+    [[nodiscard]] Less less_x_2_object() const { return {compare_x_2_object()}; }
+
+    [[nodiscard]] Less less_y_2_object() const { return {compare_y_2_object()}; }
+
+    [[nodiscard]] Turn orientation_2_object() const { return {cells, projection}; }
+
+    [[nodiscard]] Circle side_of_oriented_circle_2_object() const { return {cells, projection}; }
+
+    [[nodiscard]] static Same construct_point_2_object() { return {}; }
+
+    // NOLINTEND(readability-identifier-naming)
+};
 
 struct Winding {
     int above = 0;
@@ -33,11 +108,11 @@ struct Winding {
     }
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-using FaceInfo = CGAL::Triangulation_face_base_with_info_2<Winding, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfo>;
+using VertexBase = CGAL::Triangulation_vertex_base_2<SiteTraits>;
+using FaceInfo = CGAL::Triangulation_face_base_with_info_2<Winding, SiteTraits>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<SiteTraits, FaceInfo>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<SiteTraits, Structure,
                                                             CGAL::No_constraint_intersection_tag>;
 
 /// What all chain edges between two vertices add up to, along lower to higher vertex id.
@@ -72,17 +147,17 @@ Constraints constraints_of(const Cells& cells, const std::vector<ChainEdge>& cha
 class Arrangement {
   public:
     Arrangement(const Cells& cells, Projection projection)
-        : cells_(cells), projection_(projection) {}
+        : cells_(cells), delaunay_(SiteTraits{&cells, projection}) {}
 
     Status build(const std::vector<ChainEdge>& chain, const std::vector<std::int32_t>& lone) {
         constraints_ = constraints_of(cells_, chain);
         insert_points(lone);
-        if (handles_.size() != delaunay_.number_of_vertices()) {
+        if (handles_.size() != count_) {
             return crossing("two vertices coincide");
         }
         try {
             for (const auto& [ends, constraint] : constraints_) {
-                delaunay_.insert_constraint(handles_.at(ends.first), handles_.at(ends.second));
+                delaunay_.insert_constraint(handle(ends.first), handle(ends.second));
             }
         } catch (const Delaunay::Intersection_of_constraints_exception&) {
             return crossing("two edges of the cross-section cross");
@@ -94,7 +169,8 @@ class Arrangement {
         std::vector<VertexTriangle> out;
         for (auto f = delaunay_.finite_faces_begin(); f != delaunay_.finite_faces_end(); ++f) {
             if (f->info().common()) {
-                out.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+                out.push_back({f->vertex(0)->point().vertex, f->vertex(1)->point().vertex,
+                               f->vertex(2)->point().vertex});
             }
         }
         return out;
@@ -119,28 +195,30 @@ class Arrangement {
         }
         std::sort(ids.begin(), ids.end());
         ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-        std::vector<std::pair<Kernel::Point_2, std::int32_t>> points;
-        points.reserve(ids.size());
+        std::vector<Site> sites;
+        sites.reserve(ids.size());
         for (const std::int32_t id : ids) {
-            const Vec<Number> p = exact_point<Number>(cells_, id);
-            points.emplace_back(Kernel::Point_2(p[static_cast<std::size_t>(projection_.u)],
-                                                p[static_cast<std::size_t>(projection_.v)]),
-                                id);
+            sites.push_back({id});
         }
-        delaunay_.insert(points.begin(), points.end());
+        delaunay_.insert(sites.begin(), sites.end());
         for (auto v = delaunay_.finite_vertices_begin(); v != delaunay_.finite_vertices_end();
              ++v) {
-            handles_.emplace(v->info(), v);
+            handles_.emplace_back(v->point().vertex, v);
         }
+        std::sort(handles_.begin(), handles_.end(),
+                  [](const auto& l, const auto& r) { return l.first < r.first; });
         count_ = ids.size();
+    }
+
+    [[nodiscard]] Delaunay::Vertex_handle handle(std::int32_t vertex) const {
+        return std::lower_bound(handles_.begin(), handles_.end(), vertex,
+                                [](const auto& entry, std::int32_t v) { return entry.first < v; })
+            ->second;
     }
 
     /// Spreads the windings from the outside; crossing a constraint from its left to its right
     /// takes its turns away.
     Status flood() {
-        if (count_ != handles_.size()) {
-            return crossing("two vertices coincide");
-        }
         std::vector<Delaunay::Face_handle> open{delaunay_.infinite_face()};
         open.front()->info().seen = true;
         while (!open.empty()) {
@@ -151,8 +229,8 @@ class Arrangement {
                 Winding across = f->info();
                 across.seen = true;
                 if (f->is_constrained(i)) {
-                    const std::int32_t tail = f->vertex(Delaunay::ccw(i))->info();
-                    const std::int32_t head = f->vertex(Delaunay::cw(i))->info();
+                    const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
+                    const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
                     const auto found = constraints_.find(std::minmax(tail, head));
                     if (found == constraints_.end()) {
                         return crossing("a vertex lies on an edge of the cross-section");
@@ -185,7 +263,7 @@ class Arrangement {
             const Delaunay::Face_handle f = open.back();
             open.pop_back();
             for (int i = 0; i < 3; ++i) {
-                used.push_back(f->vertex(i)->info());
+                used.push_back(f->vertex(i)->point().vertex);
                 if (!f->is_constrained(i)) {
                     const Delaunay::Face_handle g = f->neighbor(i);
                     if (g->info().piece < 0) {
@@ -194,8 +272,8 @@ class Arrangement {
                     }
                     continue;
                 }
-                const std::int32_t tail = f->vertex(Delaunay::ccw(i))->info();
-                const std::int32_t head = f->vertex(Delaunay::cw(i))->info();
+                const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
+                const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
                 const std::int32_t edge = constraints_.find(std::minmax(tail, head))->second.edge;
                 piece.loop.push_back(
                     2 * edge + (cells_.edges[static_cast<std::size_t>(edge)].from == tail ? 0 : 1));
@@ -213,10 +291,9 @@ class Arrangement {
     }
 
     const Cells& cells_;
-    Projection projection_;
     Constraints constraints_;
     Delaunay delaunay_;
-    std::map<std::int32_t, Delaunay::Vertex_handle> handles_;
+    std::vector<std::pair<std::int32_t, Delaunay::Vertex_handle>> handles_;  ///< by vertex
     std::size_t count_ = 0;
 };
 

@@ -17,6 +17,8 @@ namespace {
 
 using Rational = mpq_class;
 
+constexpr double kUnitInLastPlace = 4e-16;
+
 tl::unexpected<Error> not_a_volume(const char* what) {
     return fail("cut.not_a_volume", what, {}, "repair the mesh first");
 }
@@ -89,9 +91,10 @@ Status unite_crowded(const Cells& cells, const std::vector<FaceSide>& sides,
 /// The shell of each side: sides joined across edges.
 Result<Bodies> shells_of(const Cells& cells, const std::vector<FaceSide>& sides) {
     struct Count {
-        std::int32_t uses = 0;
-        std::int32_t balance = 0;
         std::int32_t first = -1;
+        std::int32_t second = -1;
+        std::int16_t uses = 0;
+        std::int16_t balance = 0;
     };
 
     std::vector<Count> counts(cells.edges.size());
@@ -108,24 +111,29 @@ Result<Bodies> shells_of(const Cells& cells, const std::vector<FaceSide>& sides)
             }
         }
     };
+    bool any_crowded = false;
     for_each_use([&](const Use& use) {
         Count& c = counts[static_cast<std::size_t>(use.edge)];
+        (c.uses == 0 ? c.first : c.second) = use.item;
         ++c.uses;
-        c.balance += use.forward ? 1 : -1;
+        c.balance = static_cast<std::int16_t>(c.balance + (use.forward ? 1 : -1));
+        any_crowded = any_crowded || c.uses > 2;
     });
-    std::vector<Use> crowded;
     bool closed = true;
-    for_each_use([&](const Use& use) {
-        Count& c = counts[static_cast<std::size_t>(use.edge)];
+    for (const Count& c : counts) {
         closed = closed && c.balance == 0;
-        if (c.uses > 2) {
-            crowded.push_back(use);
-        } else if (c.first < 0) {
-            c.first = use.item;
-        } else {
-            sets.unite(c.first, use.item);
+        if (c.uses == 2) {
+            sets.unite(c.first, c.second);
         }
-    });
+    }
+    std::vector<Use> crowded;
+    if (any_crowded) {
+        for_each_use([&](const Use& use) {
+            if (counts[static_cast<std::size_t>(use.edge)].uses > 2) {
+                crowded.push_back(use);
+            }
+        });
+    }
     if (!closed) {
         return not_a_volume("an edge does not have as many faces on its left as on its right");
     }
@@ -146,7 +154,7 @@ int compare_to(const Cells& cells, std::int32_t vertex, std::size_t axis, const 
                double rounded) {
     const double x = cells.point(vertex)[static_cast<Eigen::Index>(axis)];
     // get_d truncates, so the given double is within one unit of the nearest one.
-    const double slack = 4e-16 * std::abs(rounded);
+    const double slack = kUnitInLastPlace * std::abs(rounded);
     if (x < rounded - slack) {
         return -1;
     }

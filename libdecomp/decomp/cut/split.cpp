@@ -25,6 +25,11 @@ namespace {
 
 enum Side : std::int8_t { Below = -1, On = 0, Above = 1, Unknown = 2 };
 
+/// Bits for the signs that the vertices of a face have.
+constexpr unsigned kMetBelow = 1;
+constexpr unsigned kMetOn = 2;
+constexpr unsigned kMetAbove = 4;
+
 class Splitter {
   public:
     Splitter(Cells& cells, std::int32_t region, std::int32_t plane)
@@ -45,8 +50,8 @@ class Splitter {
         if (!classify(sides)) {
             return std::vector<std::int32_t>{region_};
         }
-        for (const FaceSide& side : sides) {
-            if (Status done = place(side); !done) {
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            if (Status done = place(sides[i], met_[i]); !done) {
                 return undone(done.error());
             }
         }
@@ -92,35 +97,40 @@ class Splitter {
 
     /// Signs of all vertices of the region; false when the plane does not separate them.
     bool classify(const std::vector<FaceSide>& sides) {
-        bool above = false;
-        bool below = false;
+        unsigned all = 0;
+        met_.reserve(sides.size());
         for (const FaceSide& side : sides) {
             cells_.expand(cells_.face(side.face), leaves_);
+            unsigned met = 0;
             for (const Ref leaf : leaves_) {
-                const std::int32_t vertex = cells_.tail(leaf);
-                if (sign(vertex) == Unknown) {
-                    const auto s = static_cast<Side>(side_of_plane(cells_, vertex, plane_));
-                    signs_[static_cast<std::size_t>(vertex)] = s;
-                    above = above || s == Above;
-                    below = below || s == Below;
-                    if (s == On) {
-                        on_plane_.push_back(vertex);
-                    }
-                }
+                met |= 1U << static_cast<unsigned>(known_sign(cells_.tail(leaf)) + 1);
+            }
+            met_.push_back(static_cast<std::uint8_t>(met));
+            all |= met;
+        }
+        return (all & kMetAbove) != 0 && (all & kMetBelow) != 0;
+    }
+
+    Side known_sign(std::int32_t vertex) {
+        Side& s = signs_[static_cast<std::size_t>(vertex)];
+        if (s == Unknown) {
+            s = static_cast<Side>(side_of_plane(cells_, vertex, plane_));
+            if (s == On) {
+                on_plane_.push_back(vertex);
             }
         }
-        return above && below;
+        return s;
     }
 
     /// Puts a face on its side, cutting it if it has both.
-    Status place(const FaceSide& side) {
-        cells_.expand(cells_.face(side.face), leaves_);
-        bool above = false;
-        bool below = false;
-        for (const Ref leaf : leaves_) {
-            above = above || sign(cells_.tail(leaf)) == Above;
-            below = below || sign(cells_.tail(leaf)) == Below;
+    Status place(const FaceSide& side, unsigned met) {
+        const bool above = (met & kMetAbove) != 0;
+        const bool below = (met & kMetBelow) != 0;
+        if (above != below && (met & kMetOn) == 0) {
+            keep(side, above ? Above : Below);
+            return {};
         }
+        cells_.expand(cells_.face(side.face), leaves_);
         if (above && below) {
             return cells_.face(side.face).carrier.is_plane ? cut_polygon(side) : cut_convex(side);
         }
@@ -381,6 +391,7 @@ class Splitter {
     std::int32_t plane_;
     Before before_;
     std::vector<Side> signs_;
+    std::vector<std::uint8_t> met_;  ///< of each side
     std::vector<std::int32_t> on_plane_;
     std::vector<FaceSide> above_;
     std::vector<FaceSide> below_;

@@ -14,6 +14,9 @@ namespace {
 
 using Rational = mpq_class;
 
+/// Relative to the sum of magnitudes of the cones; their rounding stays far below it.
+constexpr double kVolumeFilter = 1e-9;
+
 /// Twice the area of the polygon in the projection, positive for a counter-clockwise one.
 template <class F, class PointOf>
 F doubled_area(const Cells& cells, Projection projection, const std::vector<Ref>& leaves,
@@ -107,7 +110,7 @@ double approximate_volume(const Cells& cells, const std::vector<FaceSide>& sides
 
 int volume_sign(const Cells& cells, const std::vector<FaceSide>& sides) {
     const Approximation a = approximate(cells, sides);
-    if (std::abs(a.six_volumes) > 1e-9 * a.magnitude) {
+    if (std::abs(a.six_volumes) > kVolumeFilter * a.magnitude) {
         return a.six_volumes > 0 ? 1 : -1;
     }
     return sgn(exact_six_volumes(cells, sides));

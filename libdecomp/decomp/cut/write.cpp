@@ -269,7 +269,7 @@ std::optional<Error> fault_of(const part::Part& part) {
     return Error{"cut.rounding_intersects",
                  "the part intersects itself once its coordinates are rounded",
                  part.id + ", " + where,
-                 "shift the plane by 3e-5 of the diagonal",
+                 "shift the plane a little: hundred-thousandths of the diagonal",
                  {}};
 }
 
