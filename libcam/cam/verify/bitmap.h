@@ -135,7 +135,9 @@ void for_capsule_rows(double ax, double ay, double bx, double by, double radius,
     double ux = bx - ax;
     double uy = by - ay;
     const double length = std::sqrt(ux * ux + uy * uy);
-    const bool long_enough = length > 1e-9;
+    constexpr double kShortest = 1e-9;
+    constexpr double kLevel = 1e-12;  // direction along a row or a column
+    const bool long_enough = length > kShortest;
     if (long_enough) {
         ux /= length;
         uy /= length;
@@ -162,7 +164,7 @@ void for_capsule_rows(double ax, double ay, double bx, double by, double radius,
             double low = -1e300;
             double high = 1e300;
             const double dy = y - ay;
-            if (std::abs(ux) > 1e-12) {
+            if (std::abs(ux) > kLevel) {
                 const double s = (0 - dy * uy) / ux;
                 const double t = (length - dy * uy) / ux;
                 low = s < t ? s : t;
@@ -170,7 +172,7 @@ void for_capsule_rows(double ax, double ay, double bx, double by, double radius,
             } else if (dy * uy < 0 || dy * uy > length) {
                 low = 1e300;
             }
-            if (std::abs(uy) > 1e-12) {
+            if (std::abs(uy) > kLevel) {
                 const double s = (dy * ux - radius) / uy;
                 const double t = (dy * ux + radius) / uy;
                 const double l = s < t ? s : t;

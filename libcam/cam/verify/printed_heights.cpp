@@ -8,6 +8,7 @@ namespace cam::verify {
 namespace {
 
 constexpr double kMostCells = 4e6;
+constexpr double kStill = 1e-12;
 
 }  // namespace
 
@@ -30,7 +31,7 @@ void PrintedHeights::for_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& 
     const Eigen::Vector2d size(columns_ * cell_mm_, rows_ * cell_mm_);
     for (int axis = 0; axis < 2; ++axis) {
         const double start = a[axis] - min_[axis];
-        if (std::abs(d[axis]) < 1e-12) {
+        if (std::abs(d[axis]) < kStill) {
             if (start < 0 || start >= size[axis]) {
                 return;
             }

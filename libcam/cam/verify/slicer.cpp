@@ -8,6 +8,8 @@
 namespace cam::verify {
 namespace {
 
+constexpr double kThinnestBinMm = 1e-9;
+
 struct Crossing {
     int row;
     int sign;
@@ -37,7 +39,7 @@ Slicer::Slicer(const decomp::mesh::TriMesh& mesh) : mesh_(&mesh) {
     }
     const double height = bounds_.max().z() - bounds_.min().z();
     const auto bins = static_cast<std::size_t>(std::clamp(height / 0.25, 1.0, 1000.0));
-    bin_mm_ = std::max(height / static_cast<double>(bins), 1e-9);
+    bin_mm_ = std::max(height / static_cast<double>(bins), kThinnestBinMm);
     const auto range = [&](const decomp::mesh::Triangle& t) {
         const double a = mesh.points[t[0]].z();
         const double b = mesh.points[t[1]].z();
