@@ -341,7 +341,7 @@ LevelReport LevelExam::run() {
     make_window();
     draw_beads();
     slice_parts();
-    if (level_.layer >= 0) {
+    if (level_.layer >= 0 && !sections_.empty()) {
         check_skin();
         check_outside();
     }

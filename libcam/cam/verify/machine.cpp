@@ -59,6 +59,8 @@ Machine::Machine(const profile::FdmSetup& setup, const Options& options)
       options_(options),
       heights_(setup.machine.chamber.min_mm.head<2>(), setup.machine.chamber.max_mm.head<2>()),
       filament_area_(std::numbers::pi / 4 * std::pow(setup.machine.nozzle.filament_diameter_mm, 2)),
+      intended_(options.strangers_program ? 1
+                                          : 1 / std::max(0.1, setup.material.extrusion_multiplier)),
       flow_limit_(
           std::min(setup.machine.nozzle.max_flow_mm3_per_s, setup.material.max_flow_mm3_per_s)),
       sailfish_(contains_word(setup.dialect.name, "sailfish") ||

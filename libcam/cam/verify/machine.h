@@ -79,6 +79,7 @@ class Machine {
     const Options& options_;
     PrintedHeights heights_;
     double filament_area_;
+    double intended_;  ///< share of the fed filament that beads are meant to hold
     double flow_limit_;
     bool sailfish_;
 

@@ -116,6 +116,9 @@ decomp::Result<Proof> examine(std::string_view program, const std::vector<Placed
         figures.declared_mm3 += bead.role == Role::Part ? 0 : static_cast<double>(bead.volume_mm3);
     }
     proof.notes = std::move(replayed->notes);
+    if (parts.empty()) {
+        proof.notes.emplace_back("no part is given: what the program makes is not compared with anything");
+    }
     judge_levels(scene, *reports, faults, proof);
     judge_missing_layers(scene, *reports, replayed->climbs, ids, faults);
     faults.close(proof);

@@ -58,7 +58,7 @@ TEST(GcodeReader, TellsMalformedForeignAndUnreadableLinesApart) {
                    "ELF")
                   .kind,
               GcodeLine::Kind::Unreadable);
-    EXPECT_EQ(read("").kind, GcodeLine::Kind::Empty);
+    EXPECT_EQ(read("\n").kind, GcodeLine::Kind::Empty);
     EXPECT_EQ(read("%").kind, GcodeLine::Kind::Empty);
 }
 
