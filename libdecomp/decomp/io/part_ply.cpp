@@ -9,7 +9,7 @@ namespace decomp::io {
 
 namespace {
 
-constexpr std::string_view kIdComment = "part ";
+constexpr std::string_view kIdComment = "hew.part/1 id ";
 
 }  // namespace
 

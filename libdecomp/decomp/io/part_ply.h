@@ -13,7 +13,7 @@ namespace decomp::io {
 /// A part as binary little-endian PLY, bit for bit: double coordinates in the model frame, per face
 /// int `source` (index of the cut plane, -1 on the input surface), int `neighbour` (index of the
 /// part on the other side, -1) and int `patch` (polycube patch, -1 where unknown); the id in a line
-/// `comment part P01`. docs/formats.md tells the rest.
+/// `comment hew.part/1 id P01`. docs/formats.md tells the rest.
 [[nodiscard]] std::string part_ply_bytes(const part::Part& part);
 
 /// Reads what part_ply_bytes() wrote; also any PLY mesh, which is then a part of input surface

@@ -41,7 +41,7 @@ Result<ScaledMesh> parse(Format format, std::string_view bytes, std::string_view
         case Format::Medit:
             return without_unit(parse_medit(bytes, name));
         case Format::Threemf:
-            return fail("io.unsupported", "3MF files are not read yet", std::string(name));
+            return parse_3mf(bytes, name);
         case Format::Ply:
             break;
     }

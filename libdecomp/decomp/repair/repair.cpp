@@ -1,171 +1,130 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/repair/repair.h"
 
-#include "decomp/base/number.h"
 #include "decomp/mesh/check.h"
 #include "decomp/mesh/measure.h"
-#include "decomp/repair/edges.h"
-#include "decomp/repair/holes.h"
+#include "decomp/repair/distance.h"
 #include "decomp/repair/intersect.h"
 #include "decomp/repair/shells.h"
 #include "decomp/repair/soup.h"
-
-#include <Eigen/Geometry>
-
-#include <algorithm>
+#include "decomp/repair/work.h"
 
 namespace decomp::repair {
 
 namespace {
 
-/// "3 points", "1 point".
-std::string counted(std::size_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+void clean_up(Work& work) {
+    if (const std::size_t merged = weld(work.mesh); merged > 0) {
+        work.change(Status::Clean,
+                    "merged " + counted(merged, "point") + " with equal coordinates");
+    }
+    if (const std::size_t dropped = drop_degenerate(work.mesh); dropped > 0) {
+        work.change(Status::Fixed,
+                    "removed " + counted(dropped, "triangle") + " that repeat a corner");
+    }
+    const DroppedDuplicates doubles = drop_duplicates(work.mesh);
+    if (doubles.copies > 0) {
+        work.change(Status::Fixed,
+                    "removed " + counted(doubles.copies, "triangle") + " that occurred twice");
+    }
+    if (doubles.wall_pairs > 0) {
+        work.change(Status::Fixed, "removed " + counted(doubles.wall_pairs, "pair") +
+                                       " of opposite triangles (inner walls)");
+    }
 }
 
-/// The chain of steps, from the mildest on; each says what it changed.
-class Chain {
-  public:
-    Chain(const mesh::TriMesh& soup, const RepairOptions& options, const Run& run)
-        : mesh_(soup), options_(options), run_(run) {
-        report_.volume_before_mm3 = mesh::volume_mm3(soup);
+void arrange(Work& work) {
+    const ShellReport shells = arrange_shells(work.mesh, work.senses_trusted);
+    work.report.shells = shells.shells;
+    work.report.voids = shells.voids;
+    if (shells.turned > 0) {
+        work.change(Status::Clean,
+                    "turned " + counted(shells.turned, "shell") + " inside out to face outward");
     }
-
-    Result<Repaired> solid() {
-        clean_up();
-        if (mesh_.triangles.empty()) {
-            return fail("repair.empty", "no triangle has an area", "",
-                        "check the unit and that the export was complete");
-        }
-        run_.progress("repair", 0.2);
-        if (Outcome status = close(); !status) {
-            return fail(status.error());
-        }
-        run_.progress("repair", 0.5);
-        if (run_.cancelled()) {
-            return cancelled();
-        }
-        arrange();
-        if (!self_intersections(mesh_, 1).empty()) {
-            return fail("repair.failed", "the surface intersects itself");
-        }
-        report_.volume_after_mm3 = mesh::volume_mm3(mesh_);
-        if (mesh_.triangles.empty() || report_.volume_after_mm3 <= 0) {
-            return fail("repair.not_a_solid", "the surface encloses no volume");
-        }
-        run_.progress("repair", 1);
-        return Repaired{std::move(mesh_), std::move(report_)};
+    if (shells.alternated > 0) {
+        work.change(Status::Fixed, "turned " + counted(shells.alternated, "shell") +
+                                       " so that solid and cavity alternate");
     }
-
-  private:
-    using Outcome = decomp::Status;
-
-    void change(Status at_least, std::string words) {
-        report_.status = std::max(report_.status, at_least);
-        run_.info("repair: " + words);
-        report_.changes.push_back(std::move(words));
+    if (shells.dropped > 0) {
+        work.change(Status::Fixed, "removed " + counted(shells.dropped, "shell") +
+                                       " within solid or around nothing, " +
+                                       figure(shells.dropped_volume_mm3) +
+                                       " mm^3 that change no boundary of the body");
     }
+}
 
-    void clean_up() {
-        if (const std::size_t merged = weld(mesh_); merged > 0) {
-            change(Status::Clean, "merged " + counted(merged, "point") + " with equal coordinates");
-        }
-        if (const std::size_t dropped = drop_degenerate(mesh_); dropped > 0) {
-            change(Status::Fixed,
-                   "removed " + counted(dropped, "triangle") + " that repeat a corner");
-        }
-        const DroppedDuplicates doubles = drop_duplicates(mesh_);
-        if (doubles.copies > 0) {
-            change(Status::Fixed,
-                   "removed " + counted(doubles.copies, "triangle") + " that occurred twice");
-        }
-        if (doubles.wall_pairs > 0) {
-            change(Status::Fixed, "removed " + counted(doubles.wall_pairs, "pair") +
-                                      " of opposite triangles (inner walls)");
-        }
+/// What every result must be, whatever the steps before believe.
+decomp::Status check(const Work& work) {
+    if (!mesh::check_topology(work.mesh).manifold()) {
+        return fail("repair.failed", "the repaired surface is no closed manifold");
     }
-
-    /// Makes a closed oriented manifold of the triangles, by index work and small holes.
-    Outcome close() {
-        mesh::TopologyReport topology = mesh::check_topology(mesh_);
-        if (!topology.manifold()) {
-            if (const std::size_t turned = orient_consistently(mesh_); turned > 0) {
-                senses_trusted_ = false;
-                change(Status::Fixed,
-                       "turned " + counted(turned, "triangle") + " to face as the neighbours do");
-            }
-            if (const std::size_t added = split_non_manifold(mesh_); added > 0) {
-                change(Status::Fixed, "cut the surface apart where it touches itself, doubling " +
-                                          counted(added, "point"));
-            }
-            topology = mesh::check_topology(mesh_);
-        }
-        if (topology.non_manifold_edges + topology.misoriented_edges +
-                topology.non_manifold_vertices >
-            0) {
-            return fail("repair.not_a_solid", "the surface has one side only, or more than two");
-        }
-        if (topology.border_edges > 0) {
-            if (Outcome status = close_holes(topology.border_edges); !status) {
-                return status;
-            }
-        }
-        const Result<std::size_t> slivers = remove_slivers(mesh_);
-        if (!slivers) {
-            return fail(slivers.error());
-        }
-        if (*slivers > 0) {
-            change(Status::Fixed, "removed " + counted(*slivers, "triangle") + " without area");
-        }
-        return {};
+    if (!self_intersections(work.mesh, 1).empty()) {
+        return fail("repair.failed", "the repaired surface crosses itself", "",
+                    "mend the mesh in a modeller");
     }
+    return {};
+}
 
-    Outcome close_holes(std::size_t border_edges) {
-        const double edges = (3.0 * static_cast<double>(mesh_.triangles.size()) +
-                              static_cast<double>(border_edges)) /
-                             2;
-        if (static_cast<double>(border_edges) > options_.largest_hole_share * edges) {
-            return fail("repair.not_a_solid", "the surface is open along " +
-                                                  counted(border_edges, "edge") + " of " +
-                                                  std::to_string(static_cast<std::size_t>(edges)));
-        }
-        const Result<FilledHoles> filled = fill_holes(mesh_);
-        if (!filled) {
-            return fail(filled.error());
-        }
-        change(Status::Fixed, "filled " + counted(filled->holes, "hole") + " with " +
-                                  counted(filled->triangles, "triangle") + " of " +
-                                  shortest_area(filled->area_mm2));
-        return {};
+void measure(Work& work, const mesh::TriMesh& soup) {
+    RepairReport& report = work.report;
+    report.volume_after_mm3 = mesh::volume_mm3(work.mesh);
+    if (work.surface_moved) {
+        report.hausdorff_mm = farthest_mm(work.mesh, soup);
     }
+    if (report.status == Status::Wrapped) {
+        report.hausdorff_mm = std::max(report.hausdorff_mm, farthest_mm(soup, work.mesh));
+        work.change(Status::Wrapped,
+                    "the wrap lies up to " + figure(report.hausdorff_mm) +
+                        " mm off the input; its volume is " + figure(report.volume_after_mm3) +
+                        " mm^3, the input's triangles sum to " + figure(report.volume_before_mm3));
+    }
+}
 
-    static std::string shortest_area(double area_mm2) { return decimal(area_mm2, 3) + " mm^2"; }
+/// A volume below this share of area^1.5 is rounding, not a body.
+constexpr double kLeastFullness = 1e-9;
 
-    void arrange() {
-        const ShellReport shells = arrange_shells(mesh_, senses_trusted_);
-        report_.shells = shells.shells;
-        report_.voids = shells.voids;
-        if (shells.turned > 0) {
-            change(Status::Clean,
-                   "turned " + counted(shells.turned, "shell") + " inside out to face outward");
+Result<Repaired> made_solid(const mesh::TriMesh& soup, const RepairOptions& options,
+                            const Run& run) {
+    Work work{.mesh = soup, .report = {}, .wrap_reason = {}, .options = options, .run = run};
+    work.report.volume_before_mm3 = mesh::volume_mm3(soup);
+    clean_up(work);
+    if (work.mesh.triangles.empty() || mesh::area_mm2(work.mesh) == 0) {
+        return fail("repair.empty", "no triangle has an area", "",
+                    "check the unit and that the export was complete");
+    }
+    const mesh::TriMesh cleaned = work.mesh;
+    run.progress("repair", 0.2);
+    bool sound = close_surface(work);
+    run.progress("repair", 0.4);
+    if (sound && !run.cancelled()) {
+        const Result<bool> removed = remove_crossings(work);
+        if (!removed) {
+            return fail(removed.error());
         }
-        if (shells.alternated > 0) {
-            change(Status::Fixed, "turned " + counted(shells.alternated, "shell") +
-                                      " so that solid and cavity alternate");
-        }
-        if (shells.dropped > 0) {
-            change(Status::Fixed, "removed " + counted(shells.dropped, "shell") +
-                                      " that bound nothing: solid within solid, " +
-                                      decimal(shells.dropped_volume_mm3, 3) + " mm^3");
+        sound = *removed;
+    }
+    run.progress("repair", 0.7);
+    if (run.cancelled()) {
+        return cancelled();
+    }
+    if (!sound) {
+        if (decomp::Status wrapped = wrap_surface(work, cleaned); !wrapped) {
+            return fail(wrapped.error());
         }
     }
-
-    mesh::TriMesh mesh_;
-    RepairReport report_;
-    bool senses_trusted_ = true;
-    const RepairOptions& options_;
-    const Run& run_;
-};
+    arrange(work);
+    measure(work, soup);
+    if (!(work.report.volume_after_mm3 >
+          kLeastFullness * std::pow(mesh::area_mm2(work.mesh), 1.5))) {
+        return fail("repair.not_a_solid", "the surface encloses no volume", "",
+                    "give the shape a thickness");
+    }
+    if (decomp::Status checked = check(work); !checked) {
+        return fail(checked.error());
+    }
+    run.progress("repair", 1);
+    return Repaired{std::move(work.mesh), std::move(work.report)};
+}
 
 }  // namespace
 
@@ -187,7 +146,7 @@ Result<Repaired> repair(const mesh::TriMesh& soup, const RepairOptions& options,
     if (run.cancelled()) {
         return cancelled();
     }
-    return Chain(soup, options, run).solid();
+    return made_solid(soup, options, run);
 }
 
 }  // namespace decomp::repair

@@ -33,7 +33,7 @@ struct RepairOptions {
     double near_share =
         1e-3;  ///< border points closer than this share of the diagonal may be merged; 0: never
     double wrap_detail_share =
-        1.0 / 150;  ///< detail of a wrap as share of the diagonal; 1/1000 to 1/20
+        1.0 / 120;  ///< detail of a wrap as share of the diagonal; 1/1000 to 1/20
 };
 
 struct RepairReport {

@@ -328,6 +328,14 @@ mesh::TriMesh extract(const mesh::TriMesh& mesh, const Components& parts,
     return out;
 }
 
+void append(mesh::TriMesh& mesh, const mesh::TriMesh& more) {
+    const auto shift = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
+    for (const auto& t : more.triangles) {
+        mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    }
+}
+
 void flip(mesh::TriMesh& mesh) {
     for (auto& triangle : mesh.triangles) {
         std::swap(triangle[1], triangle[2]);

@@ -37,6 +37,16 @@ std::size_t orient_consistently(mesh::TriMesh& mesh);
 /// doubled. Returns the number of new points.
 std::size_t split_non_manifold(mesh::TriMesh& mesh);
 
+/// Merges points on the border that lie closer together than reach_mm and than 0.3 of their
+/// shortest border edge; the one of lower index stays. Undone unless it leaves fewer border edges
+/// and no new edge with three triangles.
+struct NearMerge {
+    std::size_t points = 0;
+    double farthest_mm = 0;
+};
+
+NearMerge merge_near_border(mesh::TriMesh& mesh, double reach_mm);
+
 /// Component number of each triangle (by shared edges, numbered by lowest triangle) and their
 /// count.
 struct Components {
@@ -49,6 +59,9 @@ struct Components {
 /// The triangles of one component, or of several, with their own points.
 [[nodiscard]] mesh::TriMesh extract(const mesh::TriMesh& mesh, const Components& parts,
                                     const std::vector<bool>& wanted);
+
+/// Adds the triangles of another mesh, with its points.
+void append(mesh::TriMesh& mesh, const mesh::TriMesh& more);
 
 /// Swaps two corners of every triangle.
 void flip(mesh::TriMesh& mesh);

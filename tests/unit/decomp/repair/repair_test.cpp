@@ -120,6 +120,81 @@ TEST(Repair, BoxesThatShareAWholeFaceBecomeOne) {
     EXPECT_NEAR(result.report.volume_after_mm3, 2, 1e-12);
 }
 
+TEST(Repair, BoxesThatOverlapAreUnitedExactly) {
+    const Repaired result =
+        repaired(tests::joined(tests::box({0, 0, 0}, {2, 2, 2}), tests::box({1, 1, 1}, {3, 3, 3})));
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_EQ(result.report.shells, 1U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 15, 1e-12);
+    EXPECT_EQ(result.report.hausdorff_mm, 0);
+}
+
+TEST(Repair, BoxesThatShareAPartOfAFaceBecomeOne) {
+    const Repaired result = repaired(
+        tests::joined(tests::box({0, 0, 0}, {2, 2, 2}), tests::box({2, 0.5, 0.5}, {3, 1.5, 1.5})));
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_NEAR(result.report.volume_after_mm3, 9, 1e-12);
+}
+
+TEST(Repair, AnInwardShellThatBreaksThroughIsSubtracted) {
+    const Repaired result =
+        repaired(tests::joined(tests::box({0, 0, 0}, {2, 2, 2}),
+                               tests::flipped(tests::box({0.5, 0.5, 0.5}, {1.5, 1.5, 3}))));
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_NEAR(result.report.volume_after_mm3, 8 - 1.5, 1e-12);
+}
+
+TEST(Repair, AUnionKeepsTheCavityBesideIt) {
+    TriMesh mesh =
+        tests::joined(tests::box({0, 0, 0}, {4, 4, 4}), tests::box({3, 1, 1}, {6, 3, 3}));
+    mesh = tests::joined(mesh, tests::flipped(tests::box({1, 1, 1}, {2, 2, 2})));
+    const Repaired result = repaired(mesh);
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_EQ(result.report.voids, 1U);
+    EXPECT_NEAR(result.report.volume_after_mm3, 64 + 8 - 1, 1e-12);
+}
+
+TEST(Repair, ALooseSheetBesideABodyIsRemoved) {
+    TriMesh mesh = tests::box({0, 0, 0}, {10, 10, 10});
+    mesh.points.insert(mesh.points.end(), {{20, 0, 0}, {21, 0, 0}, {20, 1, 0}});
+    mesh.triangles.push_back({8, 9, 10});
+    const Repaired result = repaired(mesh);
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1000, 1e-9);
+}
+
+TEST(Repair, AMissingFaceOfABoxIsFilled) {
+    TriMesh box = tests::box({0, 0, 0}, {1, 2, 3});
+    box.triangles.resize(10);
+    EXPECT_NEAR(repaired(box).report.volume_after_mm3, 6, 1e-12);
+}
+
+TEST(Repair, ACornerThatMissesItsNeighboursByLittleIsMovedOntoThem) {
+    TriMesh box = tests::box({0, 0, 0}, {1, 1, 1});
+    box.points.push_back({0, 0, 1e-4});
+    box.triangles[0][0] = 8;
+    const Repaired result = repaired(box);
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_NEAR(result.report.volume_after_mm3, 1, 1e-3);
+    EXPECT_EQ(result.mesh.triangles.size(), 12U);
+}
+
+TEST(Repair, AnOpenTubeIsNotASolid) {
+    TriMesh tube = tests::torus(10, 3, 24, 12);
+    tube.triangles.resize(tube.triangles.size() / 2);
+    const auto result = repair(tube, {}, decomp::Run{});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, "repair.not_a_solid");
+}
+
+TEST(Repair, WhereWrappingIsForbiddenItIsAskedFor) {
+    TriMesh tube = tests::torus(10, 3, 24, 12);
+    tube.triangles.resize(tube.triangles.size() / 2);
+    const auto result = repair(tube, {.allow_wrap = false}, decomp::Run{});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, "repair.wrap_needed");
+}
+
 TEST(Repair, NothingIsEmpty) {
     EXPECT_EQ(repair({}, {}, decomp::Run{}).error().code, "repair.empty");
 }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/mesh/check.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/repair/distance.h"
+#include "decomp/repair/holes.h"
+#include "decomp/repair/intersect.h"
+#include "decomp/repair/soup.h"
+#include "decomp/repair/unite.h"
+#include "decomp/repair/untangle.h"
+#include "decomp/repair/work.h"
+
+#include <limits>
+
+namespace decomp::repair {
+
+namespace {
+
+constexpr std::size_t kFewCrossings = 400;     // pairs that are mended locally
+constexpr double kLargestMendedShift = 0.01;   // of the diagonal
+constexpr double kLargestMendedVolume = 0.01;  // of the volume
+
+struct Crossings {
+    std::size_t within = 0;   ///< pairs of triangles of one shell
+    std::size_t between = 0;  ///< pairs of different shells
+};
+
+Crossings count_crossings(const mesh::TriMesh& mesh) {
+    Crossings count;
+    const auto pairs = self_intersections(mesh, std::numeric_limits<std::size_t>::max());
+    if (pairs.empty()) {
+        return count;
+    }
+    const Components parts = components(mesh);
+    for (const auto& [a, b] : pairs) {
+        ++(parts.of_triangle[a] == parts.of_triangle[b] ? count.within : count.between);
+    }
+    return count;
+}
+
+/// Mends crossings within shells on a copy, and takes it only if it is sound and close to what it
+/// was.
+bool mend(Work& work, std::size_t pairs) {
+    mesh::TriMesh mended = work.mesh;
+    if (pairs > kFewCrossings || !untangle(mended) || !mesh::check_topology(mended).manifold()) {
+        return false;
+    }
+    const double shift = farthest_mm(mended, work.mesh);
+    const double before = mesh::volume_mm3(work.mesh);
+    const double change = mesh::volume_mm3(mended) - before;
+    if (count_crossings(mended).within > 0 ||
+        shift > kLargestMendedShift * mesh::diagonal_mm(work.mesh) ||
+        std::abs(change) > kLargestMendedVolume * std::abs(before)) {
+        return false;
+    }
+    work.mesh = std::move(mended);
+    work.surface_moved = true;
+    work.change(Status::Fixed, "mended " + counted(pairs, "crossing") +
+                                   " of triangles within a shell, moving it by up to " +
+                                   figure(shift) + " mm and its volume by " +
+                                   percent(change, before));
+    return true;
+}
+
+/// Rounding may have made points equal or triangles flat.
+bool tidy_after_union(Work& work) {
+    weld(work.mesh);
+    drop_degenerate(work.mesh);
+    drop_duplicates(work.mesh);
+    split_non_manifold(work.mesh);
+    return remove_slivers(work.mesh) && mesh::check_topology(work.mesh).manifold();
+}
+
+Result<bool> unite(Work& work) {
+    const double before = mesh::volume_mm3(work.mesh);
+    const Result<UnitedShells> united = unite_shells(work.mesh, work.run);
+    if (!united) {
+        return united.error().code == "run.cancelled" ? Result<bool>(fail(united.error()))
+                                                      : work.needs_wrap(united.error().message);
+    }
+    std::string words = "united " + counted(united->shells, "shell") + " that overlap into " +
+                        std::to_string(united->groups) +
+                        (united->groups == 1 ? " body" : " bodies");
+    if (united->subtracted > 0) {
+        words += ", subtracting " + std::to_string(united->subtracted) + " that face inward";
+    }
+    work.change(Status::United, words + ": volume " + figure(before) + " -> " +
+                                    figure(mesh::volume_mm3(work.mesh)) +
+                                    " mm^3, overlaps counted once");
+    if (!tidy_after_union(work)) {
+        return work.needs_wrap("the united surface is no manifold after rounding");
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<bool> remove_crossings(Work& work) {
+    Crossings count = count_crossings(work.mesh);
+    if (count.within > 0 && !mend(work, count.within)) {
+        return work.needs_wrap("a shell crosses itself in " + counted(count.within, "pair") +
+                               " of triangles");
+    }
+    if (count.between > 0) {
+        const Result<bool> united = unite(work);
+        if (!united || !*united) {
+            return united;
+        }
+        count = count_crossings(work.mesh);
+        if (count.between > 0 || (count.within > 0 && !mend(work, count.within))) {
+            return work.needs_wrap("the united surface crosses itself after rounding");
+        }
+    }
+    return true;
+}
+
+}  // namespace decomp::repair
