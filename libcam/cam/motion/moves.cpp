@@ -55,8 +55,9 @@ class Tracer {
         }
         if (!same_height || distance_mm >= machine_.retraction.min_travel_mm) {
             retract();
-            lift_to(MoveKind::Raise,
-                    std::max(z_mm, layer_z_mm_) + (started_ ? machine_.retraction.lift_mm : 0.0));
+            const double lift_mm = started_ ? machine_.retraction.lift_mm : 0.0;
+            lift_to(MoveKind::Raise, std::min(std::max(z_mm, layer_z_mm_) + lift_mm,
+                                              std::max(machine_.chamber.max_mm.z(), z_mm)));
         }
         if (distance_mm > 0 || !started_) {
             move_.to.head<2>() = target;

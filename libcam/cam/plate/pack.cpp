@@ -61,12 +61,6 @@ struct Reach {
     [[nodiscard]] Vector2d high() const { return {along[0], along[4]}; }
 };
 
-/// A line on which an offset touches something: normal . offset = at.
-struct Line {
-    Vector2d normal;
-    double at;
-};
-
 struct Placed {
     std::size_t part;
     Vector2d offset;
@@ -83,21 +77,23 @@ class Plate {
         const Reach& reach = reaches_[part];
         const Vector2d low = area_.min_mm - reach.low();
         const Vector2d high = area_.max_mm - reach.high();
-        std::vector<Line> lines = {
-            {{1, 0}, low.x()}, {{0, 1}, low.y()}, {{1, 0}, high.x()}, {{0, 1}, high.y()}};
+        std::vector<Obstacle> obstacles = {wall(low, high)};
         for (const Placed& other : placed_) {
-            for (std::size_t j = 0; j < kDirections; ++j) {
-                lines.push_back({directions().at(j), contact(other, reach, j)});
-            }
+            obstacles.push_back(obstacle(other, reach));
         }
         std::optional<Vector2d> best;
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            for (std::size_t k = i + 1; k < lines.size(); ++k) {
-                const std::optional<Vector2d> offset = crossing(lines[i], lines[k]);
-                if (offset && inside(*offset, low, high) && (!best || lower(*offset, *best)) &&
-                    free(*offset, reach)) {
-                    best = offset;
-                }
+        const auto consider = [&](const Vector2d& offset) {
+            if (inside(offset, low, high) && (!best || lower(offset, *best)) &&
+                free(offset, obstacles)) {
+                best = offset;
+            }
+        };
+        for (std::size_t i = 0; i < obstacles.size(); ++i) {
+            for (std::size_t j = 0; j < kDirections; ++j) {
+                consider(crossing(obstacles[i], j, obstacles[i], (j + 1) % kDirections));
+            }
+            for (std::size_t k = 0; k < i; ++k) {
+                meetings(obstacles[i], obstacles[k], consider);
             }
         }
         if (best) {
@@ -123,19 +119,66 @@ class Plate {
     }
 
   private:
-    [[nodiscard]] double contact(const Placed& other, const Reach& reach, std::size_t j) const {
-        return directions().at(j).dot(other.offset) + reaches_[other.part].along.at(j) +
-               reach.along.at((j + kDirections / 2) % kDirections) + spacing_mm_;
+    /// The offsets at which the part would come too near to a placed one: directions[j] . offset <
+    /// until[j] for every j, a convex polygon. The first obstacle is the room itself, whose inside
+    /// is free.
+    struct Obstacle {
+        std::array<double, kDirections> until{};
+
+        /// Whether a point on the line of side j belongs to that side.
+        [[nodiscard]] bool on_side(std::size_t j, const Vector2d& point) const {
+            const std::size_t before = (j + kDirections - 1) % kDirections;
+            const std::size_t after = (j + 1) % kDirections;
+            return directions().at(before).dot(point) <= until.at(before) + kSlackMm &&
+                   directions().at(after).dot(point) <= until.at(after) + kSlackMm;
+        }
+    };
+
+    [[nodiscard]] static Obstacle wall(const Vector2d& low, const Vector2d& high) {
+        const Reach corners({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+        return {corners.along};
     }
 
-    [[nodiscard]] static std::optional<Vector2d> crossing(const Line& a, const Line& b) {
-        const double turn = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
-        constexpr double kParallel = 1e-9;
-        if (std::abs(turn) < kParallel) {
-            return std::nullopt;
+    [[nodiscard]] Obstacle obstacle(const Placed& other, const Reach& reach) const {
+        Obstacle out;
+        for (std::size_t j = 0; j < kDirections; ++j) {
+            out.until.at(j) = directions().at(j).dot(other.offset) +
+                              reaches_[other.part].along.at(j) +
+                              reach.along.at((j + kDirections / 2) % kDirections) + spacing_mm_;
         }
-        return Vector2d((a.at * b.normal.y() - b.at * a.normal.y()) / turn,
-                        (a.normal.x() * b.at - b.normal.x() * a.at) / turn);
+        return out;
+    }
+
+    /// Where the lines of two sides cross; they must not be parallel.
+    [[nodiscard]] static Vector2d crossing(const Obstacle& a, std::size_t i, const Obstacle& b,
+                                           std::size_t j) {
+        const Vector2d& m = directions().at(i);
+        const Vector2d& n = directions().at(j);
+        const double turn = m.x() * n.y() - m.y() * n.x();
+        return {(a.until.at(i) * n.y() - b.until.at(j) * m.y()) / turn,
+                (m.x() * b.until.at(j) - n.x() * a.until.at(i)) / turn};
+    }
+
+    /// Calls `found` with the points where the outlines of two obstacles cross.
+    template <class Found>
+    static void meetings(const Obstacle& a, const Obstacle& b, const Found& found) {
+        for (std::size_t j = 0; j < kDirections / 2; ++j) {
+            if (a.until.at(j) < -b.until.at(j + kDirections / 2) ||
+                b.until.at(j) < -a.until.at(j + kDirections / 2)) {
+                return;  // apart
+            }
+        }
+        for (std::size_t i = 0; i < kDirections; ++i) {
+            for (std::size_t j = 0; j < kDirections; ++j) {
+                if (i % (kDirections / 2) == j % (kDirections / 2)) {
+                    continue;
+                }
+                const Vector2d point = crossing(a, i, b, j);
+                if (a.on_side(i, point) && b.on_side(j, point)) {
+                    found(point);
+                }
+            }
+        }
     }
 
     [[nodiscard]] static bool inside(const Vector2d& offset, const Vector2d& low,
@@ -147,10 +190,11 @@ class Plate {
         return a.y() < b.y() - kSlackMm || (a.y() < b.y() + kSlackMm && a.x() < b.x() - kSlackMm);
     }
 
-    [[nodiscard]] bool free(const Vector2d& offset, const Reach& reach) const {
-        return std::all_of(placed_.begin(), placed_.end(), [&](const Placed& other) {
+    /// Outside every obstacle but the room.
+    [[nodiscard]] static bool free(const Vector2d& offset, const std::vector<Obstacle>& obstacles) {
+        return std::all_of(obstacles.begin() + 1, obstacles.end(), [&](const Obstacle& obstacle) {
             for (std::size_t j = 0; j < kDirections; ++j) {
-                if (directions().at(j).dot(offset) >= contact(other, reach, j) - kSlackMm) {
+                if (directions().at(j).dot(offset) >= obstacle.until.at(j) - kSlackMm) {
                     return true;
                 }
             }

@@ -161,8 +161,14 @@ Status convert(const fs::path& program, const fs::path& out,
     if (!fs::is_regular_file(program, system_error)) {
         return fail("file.not_found", "there is no such file", program.string());
     }
-    const fs::path temporary = out.parent_path() / (".hew-" + out.filename().string());
-    fs::remove(temporary, system_error);
+    // Beside the result, for rename() is atomic only within one file system; under its own name,
+    // for converters write it into the result.
+    std::string folder = (out.parent_path() / ".hew-convert-XXXXXX").string();
+    if (::mkdtemp(folder.data()) == nullptr) {
+        return fail("file.unwritable", std::string("cannot make a folder: ") + std::strerror(errno),
+                    folder);
+    }
+    const fs::path temporary = fs::path(folder) / out.filename();
     const Finished finished = run_program(arguments_of(converter, program, temporary), run);
     Status status = verdict(finished, converter, program.string());
     if (status && (!fs::is_regular_file(temporary, system_error) ||
@@ -174,16 +180,15 @@ Status convert(const fs::path& program, const fs::path& out,
                             {finished.output}};
         status = fail(error);
     }
-    if (!status) {
-        fs::remove(temporary, system_error);
-        return status;
+    if (status) {
+        fs::rename(temporary, out, system_error);
+        if (system_error) {
+            status = fail("file.unwritable", "cannot write the file: " + system_error.message(),
+                          out.string());
+        }
     }
-    fs::rename(temporary, out, system_error);
-    if (system_error) {
-        return fail("file.unwritable", "cannot write the file: " + system_error.message(),
-                    out.string());
-    }
-    return {};
+    fs::remove_all(folder, system_error);
+    return status;
 }
 
 }  // namespace cam::post

@@ -112,16 +112,15 @@ void GcodeWriter::end(double speed_mm_per_s, std::size_t undo_to, bool moved) {
     text_ += '\n';
 }
 
-void GcodeWriter::move_xy(const Eigen::Vector2d& to, double filament_mm, double speed_mm_per_s,
-                          bool travel) {
+void GcodeWriter::move_xy(const Eigen::Vector2d& to, double filament_mm, double speed_mm_per_s) {
     const std::size_t before = text_.size();
-    text_ += travel ? "G0" : "G1";
+    text_ += "G1";
     bool moved = word(kX, to.x());
     moved = word(kY, to.y()) || moved;
     total_e_mm_ += filament_mm;
     // A move too short for the grid leaves its filament to the next one, rather than feeding it at
     // a standstill.
-    if (moved && !travel) {
+    if (moved && filament_mm != 0) {
         filament_word();
     }
     end(speed_mm_per_s, before, moved);

@@ -29,8 +29,9 @@ class GcodeWriter {
     /// After foreign text that moves: every axis and the feed are written again.
     void forget();
 
-    /// `travel` writes G0 and no filament.
-    void move_xy(const Eigen::Vector2d& to, double filament_mm, double speed_mm_per_s, bool travel);
+    /// A travel when no filament is fed. Always G1: some firmwares and converters run G0 at the
+    /// machine's highest speed, whatever F says.
+    void move_xy(const Eigen::Vector2d& to, double filament_mm, double speed_mm_per_s);
     void move_z(double z_mm, double speed_mm_per_s);
     void feed_filament(double filament_mm, double speed_mm_per_s);
 

@@ -306,7 +306,7 @@ class Poster {
                 writer_.move_z(move.to.z(), move.speed_mm_per_s);
                 break;
             case motion::MoveKind::Travel:
-                writer_.move_xy(move.to.head<2>(), 0, move.speed_mm_per_s, true);
+                writer_.move_xy(move.to.head<2>(), 0, move.speed_mm_per_s);
                 break;
             case motion::MoveKind::Extrude:
                 if (!filament_known_) {
@@ -314,7 +314,7 @@ class Poster {
                                                    move.bead->points.front().y(), move.to.z()));
                 }
                 describe(*move.bead);
-                writer_.move_xy(move.to.head<2>(), move.filament_mm, move.speed_mm_per_s, false);
+                writer_.move_xy(move.to.head<2>(), move.filament_mm, move.speed_mm_per_s);
                 break;
         }
     }

@@ -74,6 +74,15 @@ TEST(Moves, ANewLayerIsReachedRetractedAndFromAbove) {
     }
 }
 
+TEST(Moves, TheLiftStopsAtTheTopOfTheChamber) {
+    cam::profile::FdmSetup with = setup();
+    with.machine.retraction.lift_mm = 0.5;
+    with.machine.chamber.max_mm.z() = 0.7;
+    for (const Move& move : moves_of(tests::tower(3), with)) {
+        EXPECT_LE(move.to.z(), 0.7);
+    }
+}
+
 TEST(Moves, NoBeadExceedsTheFlowOfNozzleAndMaterial) {
     cam::profile::FdmSetup with = setup();
     with.machine.nozzle.max_flow_mm3_per_s = 5;

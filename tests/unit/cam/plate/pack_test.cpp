@@ -141,6 +141,15 @@ TEST(Pack, EqualSquaresFillTheirRows) {
     EXPECT_EQ(plate_count(pack(parts, machine()).value()), 2);
 }
 
+TEST(Pack, ManySmallPartsFillThePlate) {
+    const std::vector<Footprint> parts(70, rectangle(14, 14));
+    const auto placements = pack(parts, machine());
+    ASSERT_TRUE(placements);
+    expect_sound(parts, *placements, machine());
+    // 11 columns and 7 rows of 20 mm less one gap fit on the first plate
+    EXPECT_EQ(plate_count(*placements), 1);
+}
+
 TEST(Pack, NoPartsNeedNoPlate) { EXPECT_TRUE(pack({}, machine())->empty()); }
 
 TEST(Pack, TrianglesNestAcrossTheirBoxes) {

@@ -42,7 +42,8 @@ TEST_F(Convert, AFailureLeavesNothingBehindAndTellsWhatTheProgramSaid) {
     EXPECT_EQ(status.error().code, "post.converter_failed");
     ASSERT_FALSE(status.error().notes.empty());
     EXPECT_NE(status.error().notes.front().find("no-such-option"), std::string::npos);
-    EXPECT_FALSE(std::filesystem::exists(out_));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1)
+        << "only the program";
     const auto silent = convert(in_, out_, {"true", "{in} {out}", "x3g"});
     ASSERT_FALSE(silent);
     EXPECT_EQ(silent.error().code, "post.converter_failed");
@@ -72,13 +73,23 @@ TEST_F(Convert, GpxTakesAPostedProgramWithoutAWarning) {
     ASSERT_TRUE(decomp::write_file(in_, program->text, decomp::Overwrite::Allow));
     ASSERT_TRUE(convert(in_, out_, setup.machine.converter));
     EXPECT_GT(std::filesystem::file_size(out_), 1000U);
-    const std::string loud =
-        "cd '" + folder_.path().string() +
-        "' && gpx -v -I -g -p -m fcp 'a plate $(x).gcode' check.x3g > said 2>&1";
+    // gpx writes the name of the file into it, so only files of one name can be equal.
+    std::filesystem::create_directory(folder_ / "elsewhere");
+    ASSERT_TRUE(decomp::write_file(folder_ / "b.gcode", program->text));
+    const std::filesystem::path again = folder_ / "elsewhere" / out_.filename();
+    ASSERT_TRUE(convert(folder_ / "b.gcode", again, setup.machine.converter));
+    EXPECT_TRUE(decomp::read_file(out_).value() == decomp::read_file(again).value());
+    const std::string loud = "cd '" + folder_.path().string() +
+                             "' && gpx -v -I -g -p -m fcp b.gcode check.x3g > said 2>&1";
     ASSERT_EQ(std::system(loud.c_str()), 0);
     const std::string said = decomp::read_file(folder_ / "said").value();
     EXPECT_EQ(said.find("arning"), std::string::npos) << said;
     EXPECT_EQ(said.find("rror"), std::string::npos) << said;
+    const std::string length = "Extrusion length: ";
+    ASSERT_NE(said.find(length), std::string::npos) << said;
+    const double metres = std::stod(said.substr(said.find(length) + length.size()));
+    constexpr double kPrimeMm = 5;
+    EXPECT_NEAR(metres * 1000, program->estimate.filament_mm + kPrimeMm, 2);
 }
 
 }  // namespace

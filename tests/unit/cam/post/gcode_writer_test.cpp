@@ -11,22 +11,22 @@ using cam::post::GcodeWriter;
 
 TEST(GcodeWriter, WritesOnlyWhatChanges) {
     GcodeWriter writer({});
-    writer.move_xy({1, 2}, 0, 100, true);
+    writer.move_xy({1, 2}, 0, 100);
     writer.move_z(0.2, 10);
-    writer.move_xy({1, 3.25}, 0.5, 30, false);
-    writer.move_xy({2, 3.25}, 0.5, 30, false);
+    writer.move_xy({1, 3.25}, 0.5, 30);
+    writer.move_xy({2, 3.25}, 0.5, 30);
     writer.feed_filament(-1, 25);
     EXPECT_EQ(std::move(writer).take(),
-              "G0 X1 Y2 F6000\nG1 Z0.2 F600\nG1 Y3.25 E0.5 F1800\nG1 X2 E0.5\nG1 E-1 F1500\n");
+              "G1 X1 Y2 F6000\nG1 Z0.2 F600\nG1 Y3.25 E0.5 F1800\nG1 X2 E0.5\nG1 E-1 F1500\n");
 }
 
 TEST(GcodeWriter, NumbersHaveNoUselessDigitsAndNoMinusZero) {
     GcodeWriter writer({});
     for (const double x : {-0.0004, 100.0, -0.5, 0.05, 12.3456, -10.0, 0.001}) {
-        writer.move_xy({x, 0}, 0, 100, true);
+        writer.move_xy({x, 0}, 0, 100);
     }
     EXPECT_EQ(std::move(writer).take(),
-              "G0 X0 Y0 F6000\nG0 X100\nG0 X-0.5\nG0 X0.05\nG0 X12.346\nG0 X-10\nG0 X0.001\n");
+              "G1 X0 Y0 F6000\nG1 X100\nG1 X-0.5\nG1 X0.05\nG1 X12.346\nG1 X-10\nG1 X0.001\n");
 }
 
 double sum_of_e(const std::string& text, bool relative) {
@@ -45,7 +45,7 @@ TEST(GcodeWriter, FilamentDoesNotDriftHoweverManyMoves) {
         GcodeWriter writer(dialect);
         // each move feeds 0.4 of the last decimal: rounded one by one, nothing would ever be fed
         for (int i = 0; i < 10000; ++i) {
-            writer.move_xy({i % 2 == 0 ? 1.0 : 2.0, 0}, 0.000004, 30, false);
+            writer.move_xy({i % 2 == 0 ? 1.0 : 2.0, 0}, 0.000004, 30);
         }
         EXPECT_NEAR(sum_of_e(std::move(writer).take(), relative), 0.04, 0.5e-5);
     }
@@ -53,19 +53,19 @@ TEST(GcodeWriter, FilamentDoesNotDriftHoweverManyMoves) {
 
 TEST(GcodeWriter, AMoveBelowTheGridLeavesItsFilamentToTheNext) {
     GcodeWriter writer({});
-    writer.move_xy({1, 1}, 0, 100, true);
-    writer.move_xy({1.0001, 1}, 0.25, 30, false);
-    writer.move_xy({2, 1}, 0.25, 30, false);
-    EXPECT_EQ(std::move(writer).take(), "G0 X1 Y1 F6000\nG1 X2 E0.5 F1800\n");
+    writer.move_xy({1, 1}, 0, 100);
+    writer.move_xy({1.0001, 1}, 0.25, 30);
+    writer.move_xy({2, 1}, 0.25, 30);
+    EXPECT_EQ(std::move(writer).take(), "G1 X1 Y1 F6000\nG1 X2 E0.5 F1800\n");
 }
 
 TEST(GcodeWriter, ForgettingWritesEverythingAgain) {
     GcodeWriter writer({});
-    writer.move_xy({1, 1}, 0, 100, true);
+    writer.move_xy({1, 1}, 0, 100);
     writer.raw("G28");
     writer.forget();
-    writer.move_xy({1, 1}, 0, 100, true);
-    EXPECT_EQ(std::move(writer).take(), "G0 X1 Y1 F6000\nG28\nG0 X1 Y1 F6000\n");
+    writer.move_xy({1, 1}, 0, 100);
+    EXPECT_EQ(std::move(writer).take(), "G1 X1 Y1 F6000\nG28\nG1 X1 Y1 F6000\n");
 }
 
 }  // namespace
