@@ -4,11 +4,11 @@
 #include "decomp/cut/exact.h"
 #include "decomp/cut/shells.h"
 #include "decomp/cut/volume.h"
+#include "decomp/cut/written.h"
 
 #include <algorithm>
 #include <deque>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -35,19 +35,7 @@ Status check_points(const mesh::TriMesh& volume) {
 
 /// Equal points become one and triangles that thereby lose a corner go; order is kept.
 mesh::TriMesh welded(const mesh::TriMesh& mesh) {
-    std::vector<std::uint32_t> order(mesh.points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) {
-        const Eigen::Vector3d& p = mesh.points[i];
-        return std::tuple(p.x(), p.y(), p.z(), i);
-    };
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<std::uint32_t> first(mesh.points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-    }
+    const std::vector<std::uint32_t> first = first_of_equal(mesh.points);
     mesh::TriMesh out;
     out.points = mesh.points;
     for (const mesh::Triangle& t : mesh.triangles) {

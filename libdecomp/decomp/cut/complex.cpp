@@ -118,6 +118,8 @@ void Complex::merge(std::int32_t into, std::int32_t from) {
     std::erase_if(state_->faces, [](const Face& face) { return face.inside == face.outside; });
 }
 
+const std::vector<part::Plane>& Complex::planes() const { return state_->planes; }
+
 bool Complex::is_empty(std::int32_t region) const {
     return std::none_of(state_->faces.begin(), state_->faces.end(),
                         [&](const Face& face) { return face.bounds(region); });

@@ -57,6 +57,10 @@ class Complex {
     /// afterwards.
     void merge(std::int32_t into, std::int32_t from);
 
+    /// The planes that have cut so far; the sources of region() and the planes that errors name
+    /// count in them.
+    [[nodiscard]] const std::vector<part::Plane>& planes() const;
+
     /// True for a region that was merged away.
     [[nodiscard]] bool is_empty(std::int32_t region) const;
 

@@ -8,14 +8,19 @@
 #include "decomp/mesh/measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace decomp::cut {
 
 namespace {
+
+/// A self-intersection farther from every plane than this share of the diagonal is the input's own.
+constexpr double kNearPlane = 1e-3;
 
 /// Triangles of all faces, made once, so that both regions at a cap write the same ones.
 using FaceTriangles = std::vector<std::vector<VertexTriangle>>;
@@ -234,22 +239,61 @@ void collect_interfaces(part::Assembly& assembly) {
     }
 }
 
-std::string plane_words(const part::Part& part,
-                        const std::pair<std::uint32_t, std::uint32_t>& pair) {
-    for (const std::uint32_t triangle : {pair.first, pair.second}) {
+/// The plane to blame for triangles that meet: one that they lie in, or else the nearest that cuts
+/// the part, if it is near; -1 for the input surface.
+std::int32_t plane_behind(const Cells& cells, const part::Part& part,
+                          const std::array<std::uint32_t, 2>& triangles) {
+    std::set<std::int32_t> cuts;
+    for (const part::FacetSource& source : part.sources) {
+        cuts.insert(source.plane);
+    }
+    cuts.erase(-1);
+    std::int32_t nearest = -1;
+    double least = kNearPlane * mesh::diagonal_mm(part.mesh);
+    for (const std::uint32_t triangle : triangles) {
         if (part.sources[triangle].is_cut()) {
-            return "plane " + std::to_string(part.sources[triangle].plane);
+            return part.sources[triangle].plane;
+        }
+        for (const std::int32_t cut : cuts) {
+            const part::Plane& plane = cells.planes[static_cast<std::size_t>(cut)];
+            for (const std::uint32_t corner : part.mesh.triangles[triangle]) {
+                const double height = plane.normal.dot(part.mesh.points[corner]) - plane.offset_mm;
+                const double distance = std::abs(height) / plane.normal.norm();
+                if (distance < least) {
+                    nearest = cut;
+                    least = distance;
+                }
+            }
         }
     }
-    std::int32_t plane = -1;
-    for (const part::FacetSource& source : part.sources) {
-        plane = std::max(plane, source.plane);
+    return nearest;
+}
+
+Error rounding_error(const Cells& cells, const part::Part& part,
+                     const std::array<std::uint32_t, 2>& triangles, const char* rounded_to) {
+    const std::int32_t plane = plane_behind(cells, part, triangles);
+    const std::string place = plane < 0 ? "the input surface" : "plane " + std::to_string(plane);
+    return {
+        "cut.rounding_intersects",
+        std::string("the part intersects itself once its coordinates are rounded to ") + rounded_to,
+        part.id + ", " + place,
+        plane < 0 ? "repair the mesh after rounding it to float"
+                  : "shift the plane a little: hundred-thousandths of the diagonal",
+        {}};
+}
+
+/// The part with equal points as one: what rounding to float may not make worse.
+mesh::TopologyReport welded_topology(const mesh::TriMesh& mesh) {
+    mesh::TriMesh welded = mesh;
+    const std::vector<std::uint32_t> first = first_of_equal(mesh.points);
+    for (mesh::Triangle& t : welded.triangles) {
+        t = {first[t[0]], first[t[1]], first[t[2]]};
     }
-    return plane < 0 ? "the input surface" : "near plane " + std::to_string(plane);
+    return mesh::check_topology(welded);
 }
 
 /// Checks a part as double and as an STL carries it.
-std::optional<Error> fault_of(const part::Part& part) {
+std::optional<Error> fault_of(const Cells& cells, const part::Part& part) {
     const WrittenReport whole = check_written(part.mesh);
     if (!whole.topology.manifold() || !whole.outward) {
         return Error{"cut.not_a_volume",
@@ -258,19 +302,26 @@ std::optional<Error> fault_of(const part::Part& part) {
                      "repair the mesh first",
                      {}};
     }
-    const mesh::TriMesh stl = float_mesh(part.mesh);
-    const WrittenReport single = check_written(stl);
-    if (whole.intersections.empty() && single.intersections.empty() && single.topology.closed()) {
-        return std::nullopt;
+    if (!whole.intersections.empty()) {
+        const auto& [a, b] = whole.intersections.front();
+        return rounding_error(cells, part, {a, b}, "double");
     }
-    const std::string where = whole.intersections.empty()
-                                  ? "after rounding to float"
-                                  : plane_words(part, whole.intersections.front());
-    return Error{"cut.rounding_intersects",
-                 "the part intersects itself once its coordinates are rounded",
-                 part.id + ", " + where,
-                 "shift the plane a little: hundred-thousandths of the diagonal",
-                 {}};
+    const FloatMesh stl = float_mesh(part.mesh);
+    const WrittenReport single = check_written(stl.mesh);
+    if (!single.intersections.empty()) {
+        const auto& [a, b] = single.intersections.front();
+        return rounding_error(cells, part, {stl.origin[a], stl.origin[b]}, "float");
+    }
+    if (!single.topology.manifold()) {
+        const mesh::TopologyReport before = welded_topology(part.mesh);
+        if (!single.topology.closed() || !single.outward ||
+            single.topology.non_manifold_edges > before.non_manifold_edges ||
+            single.topology.misoriented_edges > before.misoriented_edges ||
+            single.topology.non_manifold_vertices > before.non_manifold_vertices) {
+            return rounding_error(cells, part, {0, 0}, "float");
+        }
+    }
+    return std::nullopt;
 }
 
 Status check_order(const Cells& cells, const std::vector<std::int32_t>& order) {
@@ -318,11 +369,9 @@ Result<part::Assembly> Complex::assemble(const std::vector<std::int32_t>& order,
         assembly.parts[i] = written(cells, order[i], *triangles);
         assembly.parts[i].id = part_id(i);
     });
-    renumber(assembly, cells, order);
-    collect_interfaces(assembly);
     std::vector<std::optional<Error>> faults(order.size());
     for_each_index(run, order.size(),
-                   [&](std::size_t i) { faults[i] = fault_of(assembly.parts[i]); });
+                   [&](std::size_t i) { faults[i] = fault_of(cells, assembly.parts[i]); });
     if (run.cancelled()) {
         return cancelled();
     }
@@ -331,6 +380,8 @@ Result<part::Assembly> Complex::assemble(const std::vector<std::int32_t>& order,
             return fail(*fault);
         }
     }
+    renumber(assembly, cells, order);
+    collect_interfaces(assembly);
     return assembly;
 }
 

@@ -29,10 +29,20 @@ struct WrittenReport {
 [[nodiscard]] WrittenReport check_written(const mesh::TriMesh& mesh,
                                           std::size_t intersections_at_most = 1);
 
-/// The surface that a reader of a binary STL finds: coordinates rounded to float, points that
-/// became equal welded, triangles that lost their area taken out together with their neighbours'
-/// share, so that a closed surface stays closed. Edges where a pinched part touches itself come out
-/// with four triangles.
-[[nodiscard]] mesh::TriMesh float_mesh(const mesh::TriMesh& mesh);
+/// For each point the lowest index with the same coordinates. O(n log n).
+[[nodiscard]] std::vector<std::uint32_t> first_of_equal(const std::vector<Eigen::Vector3d>& points);
+
+/// The surface that a reader of a binary STL finds, and where its triangles come from.
+struct FloatMesh {
+    mesh::TriMesh mesh;
+    std::vector<std::uint32_t>
+        origin;  ///< of each triangle: the one that it was, or was flipped from
+};
+
+/// Coordinates rounded to float, equal points welded, triangles that lost a corner dropped, pairs
+/// that became each other's back taken out, and triangles without area dissolved by flipping their
+/// longest edge, so that a closed surface stays closed. An edge where a pinched part touches itself
+/// comes out with four triangles. Write this, not the part, to an STL.
+[[nodiscard]] FloatMesh float_mesh(const mesh::TriMesh& mesh);
 
 }  // namespace decomp::cut

@@ -66,8 +66,50 @@ TEST(Written, AVertexOnAForeignFaceIsSeen) {
 TEST(FloatMesh, PointsThatRoundToOneAreWelded) {
     auto mesh = tests::sphere(10, 40, 19);
     mesh.points[1] = mesh.points[0] + Eigen::Vector3d(0, 0, -1e-9);
-    const auto rounded = float_mesh(mesh);
+    const auto rounded = float_mesh(mesh).mesh;
     EXPECT_EQ(rounded.points.size(), mesh.points.size() - 1);
     EXPECT_EQ(rounded.triangles.size(), mesh.triangles.size() - 2);
     EXPECT_TRUE(decomp::mesh::check_topology(rounded).manifold());
+}
+
+TEST(FloatMesh, TrianglesThatLoseTheirAreaAreFlippedAway) {
+    // A corner 1e-9 above the middle of an edge: collinear in float.
+    auto mesh = box({0, 0, 0}, {2, 1, 1});
+    mesh.points.emplace_back(1, 0, -1e-9);
+    for (auto& t : mesh.triangles) {  // split the two triangles at the edge 0-4
+        t = t == decomp::mesh::Triangle{0, 4, 5} ? decomp::mesh::Triangle{0, 8, 5} : t;
+    }
+    mesh.triangles.push_back({8, 4, 5});
+    mesh.triangles.push_back({0, 4, 8});  // a sliver that is flat after rounding
+    EXPECT_TRUE(check_written(mesh).topology.manifold());
+    for (auto& p : mesh.points) {
+        p.z() += 1;
+    }
+    const auto rounded = float_mesh(mesh);
+    const auto report = check_written(rounded.mesh);
+    EXPECT_TRUE(report.sound());
+    EXPECT_EQ(report.topology.degenerate_triangles, 0U);
+    EXPECT_EQ(rounded.mesh.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(rounded.origin.size(), mesh.triangles.size());
+}
+
+TEST(FloatMesh, AFinThatFallsFlatIsTakenOut) {
+    // A flap of two triangles back to back, 1e-9 apart, on the top of a box.
+    auto mesh = box({0, 0, 0}, {1, 1, 1});
+    for (auto& t :
+         mesh.triangles) {  // the top is (1 5 7), (1 7 3): open the diagonal 1-7 into a fin
+        t = t == decomp::mesh::Triangle{1, 7, 3} ? decomp::mesh::Triangle{1, 8, 3} : t;
+    }
+    mesh.points.emplace_back(0.5, 0.5, 2);
+    mesh.triangles.push_back({8, 7, 3});
+    mesh.triangles.push_back({1, 7, 8});
+    mesh.points.emplace_back(0.5 + 1e-9, 0.5, 2);
+    const auto rounded = float_mesh(mesh);
+    EXPECT_TRUE(decomp::mesh::check_topology(rounded.mesh).manifold());
+    EXPECT_EQ(rounded.mesh.points.size(), 9U);
+}
+
+TEST(FloatMesh, AnAllFlatShapeVanishes) {
+    const auto rounded = float_mesh(box({1, 1, 1}, {1 + 1e-12, 2, 2}));
+    EXPECT_TRUE(rounded.mesh.triangles.empty());
 }
