@@ -316,9 +316,10 @@ void LevelExam::check_support() {
         return;  // over the bed by no more than the gap that is allowed
     }
     Bitmap floating(window_);
-    const std::vector<Island> islands = find_islands(all_, carried, floating);
+    const std::vector<Island> islands = find_islands(all_, part_, carried, floating);
     for (const Island& island : islands) {
-        if (mm2(island.pixels) >= limits::kIslandMm2) {
+        if (mm2(island.part_pixels) >= limits::kIslandMm2 ||
+            mm2(island.pixels) >= limits::kSupportIslandMm2) {
             ++report_.islands;
             report_.island_mm2 += mm2(island.pixels);
         }

@@ -57,7 +57,8 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t node) {
 
 }  // namespace
 
-std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, Bitmap& floating) {
+std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& part, const Bitmap& carried,
+                                 Bitmap& floating) {
     const std::vector<Run> runs = runs_of(deposit, carried);
     std::vector<std::uint32_t> parents(runs.size());
     std::iota(parents.begin(), parents.end(), 0U);
@@ -91,9 +92,12 @@ std::vector<Island> find_islands(const Bitmap& deposit, const Bitmap& carried, B
         }
         if (root == k) {
             index[k] = static_cast<std::uint32_t>(islands.size());
-            islands.push_back({0, runs[k].first + window.left, runs[k].row + window.bottom});
+            islands.push_back({0, 0, runs[k].first + window.left, runs[k].row + window.bottom});
         }
         islands[index[root]].pixels += static_cast<std::size_t>(runs[k].last - runs[k].first + 1);
+        const Run& run = runs[k];
+        islands[index[root]].part_pixels += static_cast<std::size_t>(
+            part.count(run.row + window.bottom, run.first + window.left, run.last + window.left));
         floating.fill(runs[k].row + window.bottom, runs[k].first + window.left,
                       runs[k].last + window.left);
     }

@@ -21,10 +21,11 @@ inline constexpr double kOutsideLayerMm3 =
 inline constexpr double kOutsideShare = 0.0005;  ///< of the part's material; peers 0.000011
 inline constexpr double kContactLayers = 2;  ///< free layers between a support and what it carries
 inline constexpr double kContactSlackMm = 0.06;
-inline constexpr double kIslandMm2 = 0.3;  ///< smaller specks are no island
+inline constexpr double kIslandMm2 = 0.3;         ///< smaller specks of the part are no island
+inline constexpr double kSupportIslandMm2 = 1.5;  ///< nor are these of supports: a lost thread
 inline constexpr double kSolidCoverage =
-    0.985;                                    ///< covered share of a section that counts as solid
-inline constexpr double kLeastSolidMm2 = 25;  ///< smaller sections say little about the flow
+    0.985;                                     ///< covered share of a section that counts as solid
+inline constexpr double kLeastSolidMm2 = 100;  ///< smaller sections say little about the flow
 inline constexpr double kBridgeShare =
     0.02;  ///< of the beads over nothing, in a layer judged for its flow
 inline constexpr double kFillLow = 0.94;  ///< V / (A h); peers 1.001 .. 1.007

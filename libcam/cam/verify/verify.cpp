@@ -117,7 +117,8 @@ decomp::Result<Proof> examine(std::string_view program, const std::vector<Placed
     }
     proof.notes = std::move(replayed->notes);
     if (parts.empty()) {
-        proof.notes.emplace_back("no part is given: what the program makes is not compared with anything");
+        proof.notes.emplace_back(
+            "no part is given: what the program makes is not compared with anything");
     }
     judge_levels(scene, *reports, faults, proof);
     judge_missing_layers(scene, *reports, replayed->climbs, ids, faults);
