@@ -23,9 +23,9 @@ using path::Feature;
 using polygon::Paths;
 using Process = profile::FdmMachine::Process;
 
-constexpr double kSolidLinkSpacings = 3;    // solid lines are linked over at most so many spacings
-constexpr double kSparseLinkSpacings = 4;   // sparse lines likewise, of their own spacing
-constexpr double kInterfaceSpacings = 1.5;  // lines of support under the part, by bead spacings
+constexpr double kSolidLinkSpacings = 3;     // solid lines are linked over at most so many spacings
+constexpr double kSparseLinkSpacings = 1.5;  // sparse lines likewise, of their own spacing
+constexpr double kInterfaceSpacings = 1.5;   // lines of support under the part, by bead spacings
 constexpr double kOutputToleranceMm = 0.004;
 constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
 constexpr double kLeastStripMm = 0.12;      // narrower strips are left to their neighbours

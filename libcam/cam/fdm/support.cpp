@@ -26,16 +26,21 @@ constexpr double kTightGapMm =
     0.25;  // beside the part, where the full gap leaves an island no column
 constexpr double kSlenderMm2 = 20;    // a column of less section widens downwards …
 constexpr double kWideningMm = 0.04;  // … by this much a layer
-constexpr double kToleranceMm = 0.02;
+constexpr double kToleranceMm = 0.05;
+constexpr double kTopReachSpacings = 1.2;  // the dense top of a column rests on a line at least
 constexpr double kNotchMm =
     1.0;  // notches in a column's outline narrower than twice this are closed
 constexpr double kSmoothMm = 0.1;
 
-/// What begins on a layer and needs something below.
+/// What begins on a layer and needs something below, grown by the reach of its column.
 struct Overhang {
     Paths attached;  ///< hangs on the part beside it
     Paths islands;   ///< hangs on nothing
 };
+
+Paths grown(const Paths& region, double reach_mm) {
+    return polygon::simplified(polygon::offset(region, reach_mm), kToleranceMm);
+}
 
 /// @param step_mm  how far a layer may reach beyond the one below; negative: as far as it likes
 Overhang overhang_of(const Paths& slice, const Paths& below, const Paths& carried, double step_mm) {
@@ -52,8 +57,10 @@ Overhang overhang_of(const Paths& slice, const Paths& below, const Paths& carrie
         }
     }
     if (step_mm >= 0) {
-        out.attached = polygon::subtract(polygon::subtract(beyond, out.islands), carried);
+        out.attached =
+            grown(polygon::subtract(polygon::subtract(beyond, out.islands), carried), kReachMm);
     }
+    out.islands = grown(out.islands, kIslandReachMm);
     return out;
 }
 
@@ -85,6 +92,12 @@ Paths widened(const Paths& columns) {
     return out;
 }
 
+/// What has to be carried on one layer, the part and its gap taken away.
+struct Columns {
+    Paths attached;
+    Paths islands;
+};
+
 /// The columns, as they come down from layer to layer.
 class Descent {
   public:
@@ -93,113 +106,133 @@ class Descent {
         : slices_(slices),
           overhangs_(overhangs),
           gap_(static_cast<std::size_t>(std::max(options.gap_layers, 0))),
-          clear_(slices.size()),
-          tight_(slices.size()) {
-        decomp::for_each_index(run, slices.size(), [&](std::size_t i) {
+          top_reach_mm_(std::max(options.spacing_mm * kTopReachSpacings - kReachMm, 0.0)),
+          run_(run),
+          clear_(slices.size()) {
+        std::size_t highest = slices.size();
+        while (highest > 0 && overhangs[highest - 1].attached.empty() &&
+               overhangs[highest - 1].islands.empty()) {
+            --highest;
+        }
+        decomp::for_each_index(run, highest, [&](std::size_t i) {
             clear_[i] =
                 polygon::simplified(polygon::offset(slices[i], options.gap_xy_mm), kToleranceMm);
-            tight_[i] = polygon::simplified(polygon::offset(slices[i], kTightGapMm), kToleranceMm);
         });
     }
 
-    std::vector<SupportAreas> areas() {
-        std::vector<SupportAreas> out(slices_.size());
-        for (std::size_t i = slices_.size(); i-- > 0;) {
-            take_over(i);
-            if (attached_.empty() && islands_.empty()) {
-                continue;
-            }
-            const Paths column = polygon::unite(smooth(i), islands_);
-            const Paths top = polygon::intersect(column, contact(i));
-            out[i].interface = top;
-            out[i].body = polygon::subtract(column, top);
+    std::vector<SupportAreas> areas() const {
+        std::vector<Columns> columns(slices_.size());
+        Columns now;
+        for (std::size_t i = slices_.size(); i-- > 0 && !run_.cancelled();) {
+            take_over(i, now);
+            columns[i] = now;
         }
+        std::vector<SupportAreas> out(slices_.size());
+        decomp::for_each_index(run_, columns.size(), [&](std::size_t i) {
+            const Paths column = polygon::unite(smooth(columns[i].attached, i), columns[i].islands);
+            if (!column.empty()) {
+                out[i].interface = polygon::intersect(column, contact(i));
+                out[i].body = polygon::subtract(column, out[i].interface);
+            }
+        });
         drop_floating(out);
         return out;
     }
 
   private:
     /// Adds what layer i has to carry, and takes away where the part is.
-    void take_over(std::size_t i) {
+    void take_over(std::size_t i, Columns& now) const {
         const std::size_t above = i + 1 + gap_;
         if (above < slices_.size()) {
             const Overhang& o = overhangs_[above];
             if (!o.attached.empty()) {
-                attached_ = polygon::unite(attached_, polygon::offset(o.attached, kReachMm));
+                now.attached = polygon::unite(now.attached, o.attached);
             }
             if (!o.islands.empty()) {
-                islands_ = polygon::unite(islands_, polygon::offset(o.islands, kIslandReachMm));
+                now.islands = polygon::unite(now.islands, o.islands);
             }
         }
-        if (!attached_.empty()) {
-            attached_ = polygon::simplified(polygon::subtract(attached_, clear_[i]), kToleranceMm);
+        if (!now.attached.empty()) {
+            now.attached =
+                polygon::simplified(polygon::subtract(now.attached, clear_[i]), kToleranceMm);
         }
-        if (!islands_.empty()) {
-            // Away from the part where there is room, close to it where there is none.
-            Paths columns;
-            for (const polygon::Island& island : polygon::islands(widened(islands_))) {
-                const Paths loops = island.loops();
-                Paths apart = polygon::opened(polygon::subtract(loops, clear_[i]), kNarrowMm);
-                if (apart.empty()) {
-                    apart = polygon::opened(polygon::subtract(loops, tight_[i]), kNarrowMm / 2);
-                }
-                columns = polygon::unite(columns, apart);
-            }
-            islands_ = polygon::simplified(columns, kToleranceMm);
+        if (!now.islands.empty()) {
+            now.islands = beside_part(widened(now.islands), i);
         }
     }
 
+    /// Away from the part where there is room, close to it where there is none.
+    Paths beside_part(const Paths& columns, std::size_t i) const {
+        Paths out;
+        for (const polygon::Island& island : polygon::islands(columns)) {
+            const Paths loops = island.loops();
+            Paths apart = polygon::opened(polygon::subtract(loops, clear_[i]), kNarrowMm);
+            if (apart.empty()) {
+                const Paths tight = polygon::offset(slices_[i], kTightGapMm);
+                apart = polygon::opened(polygon::subtract(loops, tight), kNarrowMm / 2);
+            }
+            out = polygon::unite(out, apart);
+        }
+        return polygon::simplified(out, kToleranceMm);
+    }
+
     /// The attached columns without notches and narrow places, such that lines run well in them.
-    [[nodiscard]] Paths smooth(std::size_t i) const {
+    Paths smooth(const Paths& attached, std::size_t i) const {
         const Paths whole = polygon::simplified(
-            polygon::closed(attached_, kNotchMm, polygon::Join::Round), kSmoothMm);
+            polygon::closed(attached, kNotchMm, polygon::Join::Round), kSmoothMm);
         return polygon::opened(polygon::subtract(whole, clear_[i]), kNarrowMm,
                                polygon::Join::Round);
     }
 
-    /// Where a layer's support ends within the next few layers.
+    /// Where a layer's support ends within the next few layers, and as far around that it rests on
+    /// lines.
     Paths contact(std::size_t i) const {
         Paths out;
         for (std::size_t k = 1; k <= kInterfaceLayers; ++k) {
             const std::size_t above = i + k + gap_;
             if (above < slices_.size()) {
                 const Overhang& o = overhangs_[above];
-                out = polygon::unite(out, polygon::offset(o.attached, kReachMm));
-                out = polygon::unite(out, polygon::offset(o.islands, kIslandReachMm));
+                out = polygon::unite(out, polygon::unite(o.attached, o.islands));
             }
         }
-        return out;
+        return polygon::offset(out, top_reach_mm_);
+    }
+
+    static bool rests(const Paths& piece, const Paths& below) {
+        return polygon::area_mm2(polygon::intersect(piece, below)) >= kLeastIslandLapMm2;
     }
 
     /// Bottom up: support that stands on nothing, cut off by the gap beside the part, is left out.
     void drop_floating(std::vector<SupportAreas>& areas) const {
+        Paths below = polygon::unite(areas[0].body, areas[0].interface);
         for (std::size_t i = 1; i < areas.size(); ++i) {
             SupportAreas& now = areas[i];
-            if (now.body.empty() && now.interface.empty()) {
-                continue;
-            }
-            const Paths rest = polygon::unite(
-                polygon::unite(areas[i - 1].body, areas[i - 1].interface), slices_[i - 1]);
+            Paths column = polygon::unite(now.body, now.interface);
             Paths standing;
-            for (const polygon::Island& island :
-                 polygon::islands(polygon::unite(now.body, now.interface))) {
+            bool all = true;
+            for (const polygon::Island& island : polygon::islands(column)) {
                 const Paths loops = island.loops();
-                if (polygon::area_mm2(polygon::intersect(loops, rest)) >= kLeastIslandLapMm2) {
+                if (rests(loops, below) || rests(loops, slices_[i - 1])) {
                     standing.insert(standing.end(), loops.begin(), loops.end());
+                } else {
+                    all = false;
                 }
             }
-            now.body = polygon::intersect(now.body, standing);
-            now.interface = polygon::intersect(now.interface, standing);
+            if (!all) {
+                now.body = polygon::intersect(now.body, standing);
+                now.interface = polygon::intersect(now.interface, standing);
+                column = std::move(standing);
+            }
+            below = std::move(column);
         }
     }
 
     const std::vector<Paths>& slices_;
     const std::vector<Overhang>& overhangs_;
     std::size_t gap_;
-    std::vector<Paths> clear_;  ///< the part and the gap beside it
-    std::vector<Paths> tight_;
-    Paths attached_;
-    Paths islands_;
+    double top_reach_mm_;  ///< of dense tops beyond what they carry
+    const decomp::Run& run_;
+    std::vector<Paths> clear_;  ///< the part and the gap beside it, where anything hangs above
 };
 
 }  // namespace

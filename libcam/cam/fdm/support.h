@@ -14,8 +14,9 @@ struct SupportOptions {
         angle;  ///< faces flatter than this against the horizontal need support; 0: islands only
     double layer_height_mm = 0.2;
     double line_width_mm = 0.45;
-    int gap_layers = 1;      ///< left free between support and the part above it
-    double gap_xy_mm = 0.6;  ///< left free beside the part
+    int gap_layers = 1;       ///< left free between support and the part above it
+    double gap_xy_mm = 0.6;   ///< left free beside the part
+    double spacing_mm = 2.5;  ///< of the lines in columns: their dense tops reach over to the next
 };
 
 /// What of one layer is support; the two areas do not overlap.
@@ -29,7 +30,7 @@ struct SupportAreas {
 /// the layer below, always get a column, close to the part if there is no other room. A column too
 /// slender to stand widens downwards.
 /// @param carried  per layer, what bridges carry: needs no support
-/// Serial from the top down, preparation parallel over layers.
+/// Columns come down serially, the rest is parallel over layers.
 [[nodiscard]] std::vector<SupportAreas> find_supports(const std::vector<polygon::Paths>& slices,
                                                       const std::vector<polygon::Paths>& carried,
                                                       const SupportOptions& options,
