@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/pipeline/candidates.h"
+
+#include "decomp/mesh/measure.h"
+#include "decomp/sections/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace decomp::pipeline {
+
+namespace {
+
+constexpr int kStations = 96;
+constexpr double kSameDirection = 0.9998;  // cosine of about 1 degree
+constexpr double kAxis = 1 - 1e-9;
+constexpr double kEnds = 0.02;        // of the length: no plane closer to an end
+constexpr double kRelaxedNeck = 0.2;  // strength from which a neck's plane is relaxed
+constexpr std::size_t kRelaxed = 4;   // necks relaxed at most
+constexpr std::size_t kEventsPerDirection = 10;
+constexpr double kMaxTilt = 0.45;       // radians
+constexpr double kMaxShift = 0.06;      // of the length
+constexpr double kJumpStandOff = 6e-5;  // of the length, to the slimmer side of a jump
+
+std::vector<Eigen::Vector3d> all_directions(const part::Part& part, const part::Verdict& verdict) {
+    std::vector<Eigen::Vector3d> out = sections::directions(part.mesh);
+    for (const part::Plane& plane : verdict.cuts_that_help) {
+        const Eigen::Vector3d direction = plane.normal.normalized();
+        if (std::none_of(out.begin(), out.end(), [&](const Eigen::Vector3d& other) {
+                return std::abs(other.dot(direction)) > kSameDirection;
+            })) {
+            out.push_back(direction);
+        }
+    }
+    return out;
+}
+
+/// The plane at an event. At a jump it stands just on the slimmer side, so that the wide piece
+/// keeps the whole step.
+double offset_at(const sections::Profile& profile, const sections::Event& event) {
+    if (event.kind == sections::EventKind::Neck) {
+        return event.t_mm;
+    }
+    const double step = kJumpStandOff * (profile.high_mm() - profile.low_mm());
+    const bool slimmer_below =
+        profile.at(event.t_mm - step).area_mm2 < profile.at(event.t_mm + step).area_mm2;
+    return event.t_mm + (slimmer_below ? -step : step);
+}
+
+struct Neck {
+    double strength;
+    part::Plane plane;
+    double length;
+};
+
+void add_direction(const part::Part& part, int index, const Eigen::Vector3d& direction, int offsets,
+                   std::vector<Candidate>& out, std::vector<Neck>& necks) {
+    const sections::Profile profile(part.mesh, direction, kStations);
+    const double low = profile.low_mm();
+    const double length = profile.high_mm() - low;
+    const bool on_axis = direction.cwiseAbs().maxCoeff() > kAxis;
+    const auto add = [&](double offset, double strength) {
+        if (offset > low + kEnds * length && offset < low + (1 - kEnds) * length) {
+            out.push_back({{direction, offset}, index, on_axis, strength});
+        }
+    };
+    std::vector<sections::Event> events = profile.events();
+    std::stable_sort(
+        events.begin(), events.end(),
+        [](const sections::Event& a, const sections::Event& b) { return a.strength > b.strength; });
+    events.resize(std::min(events.size(), kEventsPerDirection));
+    for (const sections::Event& event : events) {
+        add(offset_at(profile, event), event.strength);
+        if (event.kind == sections::EventKind::Neck && event.strength >= kRelaxedNeck) {
+            necks.push_back({event.strength, {direction, event.t_mm}, length});
+        }
+    }
+    for (int i = 1; i <= offsets; ++i) {
+        add(low + length * i / (offsets + 1), 0);
+    }
+    for (const int slabs : {3, 5}) {
+        for (int i = 1; i < slabs; ++i) {
+            add(low + length * i / slabs, 0);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& verdict,
+                                  int offsets) {
+    std::vector<Candidate> out;
+    std::vector<Neck> necks;
+    int index = 0;
+    for (const Eigen::Vector3d& direction : all_directions(part, verdict)) {
+        add_direction(part, index++, direction, offsets, out, necks);
+    }
+    for (const part::Plane& plane : verdict.cuts_that_help) {
+        const bool on_axis = plane.normal.cwiseAbs().maxCoeff() > kAxis;
+        out.push_back({plane, index, on_axis, 0});
+    }
+    ++index;
+    std::stable_sort(necks.begin(), necks.end(),
+                     [](const Neck& a, const Neck& b) { return a.strength > b.strength; });
+    necks.resize(std::min(necks.size(), kRelaxed));
+    for (const Neck& neck : necks) {
+        const part::Plane plane = sections::refined_neck(
+            part.mesh, neck.plane,
+            {.max_tilt = kMaxTilt, .max_shift_mm = kMaxShift * neck.length, .rounds = 7});
+        out.push_back({plane, index++, false, neck.strength});
+    }
+    return out;
+}
+
+}  // namespace decomp::pipeline

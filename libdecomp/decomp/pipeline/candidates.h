@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "decomp/part/judge.h"
+#include "decomp/part/part.h"
+#include "decomp/part/plane.h"
+
+#include <vector>
+
+/// Inside the room: where a part could be cut.
+namespace decomp::pipeline {
+
+struct Candidate {
+    part::Plane plane;     ///< unit normal
+    int direction = 0;     ///< index of the direction: candidates of one direction are alike
+    bool on_axis = false;  ///< perpendicular to a model axis: what a person would try first
+    double event = 0;  ///< strength of the event that it stands at, 0 for an evenly spaced plane
+};
+
+/// Planes at events and at even spacing along each direction, the judge's own proposals, and necks
+/// with their planes relaxed. Deterministic; none touches the ends of the part.
+[[nodiscard]] std::vector<Candidate> candidates(const part::Part& part,
+                                                const part::Verdict& verdict, int offsets);
+
+}  // namespace decomp::pipeline

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/pipeline/decompose.h"
+
+#include "decomp/base/number.h"
+#include "decomp/cut/complex.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/pipeline/nudge.h"
+#include "decomp/pipeline/plan.h"
+#include "decomp/pipeline/unite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace decomp::pipeline {
+
+namespace {
+
+constexpr std::array<double, 4> kNudges{3e-5, 5e-5, 7e-5, 1e-4};  // of the diagonal
+constexpr int kSplitTries = 4;        // positions of one plane tried where a split is refused
+constexpr int kPlannedDepth = 24;     // deeper regions are only bisected
+constexpr double kSameVolume = 0.05;  // relative: a planned piece and the region that it became
+constexpr double kSameCentre = 0.03;  // of the diagonal
+
+/// A region to look at, and the plan for it if one was made.
+struct Pending {
+    std::int32_t region = 0;
+    std::shared_ptr<PlannedCut>* plan = nullptr;
+    int depth = 0;
+};
+
+part::Plane bisecting(const mesh::TriMesh& mesh) {
+    const Eigen::AlignedBox3d box = mesh::bounds(mesh);
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    return {Eigen::Vector3d::Unit(axis), box.center()[axis]};
+}
+
+class Decomposer {
+  public:
+    Decomposer(const mesh::TriMesh& volume, const DecomposeOptions& options,
+               const part::Judge& judge, Run& run)
+        : options_(options), judge_(judge), run_(run), diagonal_(mesh::diagonal_mm(volume)) {}
+
+    Result<Decomposition> decompose(const cut::Complex& uncut) {
+        roots_.resize(static_cast<std::size_t>(uncut.region_count()));
+        Result<Decomposition> result = fail("decompose.no_progress", "nothing was tried");
+        for (const double nudge : kNudges) {
+            cut::Complex complex = uncut;
+            result = attempt(complex, nudge);
+            if (result || result.error().code != "cut.rounding_intersects") {
+                return result;
+            }
+            run_.info(
+                "a part intersects itself after rounding; trying again with planes shifted by " +
+                shortest(nudge) + " of the diagonal");
+        }
+        return result;
+    }
+
+  private:
+    Result<Decomposition> attempt(cut::Complex& complex, double nudge) {
+        finished_.clear();
+        Status cut = cut_all(complex, nudge * diagonal_);
+        if (!cut) {
+            return fail(cut.error());
+        }
+        const int merges = options_.merge ? unite_neighbours(complex, finished_, judge_, run_) : 0;
+        if (run_.cancelled()) {
+            return cancelled();
+        }
+        run_.progress("decompose", 0.9);
+        return written(complex, merges);
+    }
+
+    Status cut_all(cut::Complex& complex, double step_mm) {
+        std::deque<Pending> pending;
+        for (std::int32_t region = 0; region < complex.region_count(); ++region) {
+            pending.push_back({region, &roots_[static_cast<std::size_t>(region)], 0});
+        }
+        while (!pending.empty()) {
+            if (run_.cancelled()) {
+                return cancelled();
+            }
+            const Pending next = pending.front();
+            pending.pop_front();
+            Status looked = look_at(complex, next, step_mm, pending);
+            if (!looked) {
+                return looked;
+            }
+            if (finished_.size() + pending.size() > static_cast<std::size_t>(options_.max_parts)) {
+                return fail("decompose.too_many_parts",
+                            "the machine is not content with " +
+                                std::to_string(options_.max_parts) + " parts",
+                            "",
+                            "scale the model down, choose a machine with a larger chamber, or "
+                            "allow more parts");
+            }
+            const auto done = static_cast<double>(finished_.size());
+            run_.progress("decompose", 0.8 * done / (done + static_cast<double>(pending.size())));
+        }
+        return {};
+    }
+
+    Status look_at(cut::Complex& complex, const Pending& next, double step_mm,
+                   std::deque<Pending>& pending) {
+        part::Part part = complex.region(next.region);
+        part::Verdict verdict = judge_(part, part::Fidelity::Exact);
+        if (verdict.ok()) {
+            finished_.push_back({next.region, std::move(part), std::move(verdict)});
+            return {};
+        }
+        if (next.plan != nullptr && !*next.plan && next.depth < kPlannedDepth) {
+            *next.plan = plan_cut(part, options_, judge_, diagonal_, run_);
+            if (run_.cancelled()) {
+                return cancelled();
+            }
+        }
+        PlannedCut bisection{bisecting(part.mesh), {}, 0};
+        std::array<PlannedCut*, 2> choices{next.plan != nullptr ? next.plan->get() : nullptr,
+                                           &bisection};
+        std::optional<Error> refusal;
+        for (PlannedCut* choice : choices) {
+            for (int turn = 0; choice != nullptr && turn < kSplitTries; ++turn) {
+                const part::Plane plane = nudged(choice->plane, part.mesh, step_mm, turn);
+                Result<std::vector<std::int32_t>> regions = complex.split(next.region, plane);
+                if (regions && regions->size() > 1) {
+                    for (const std::int32_t region : *regions) {
+                        pending.push_back(
+                            {region, plan_of(complex, region, plane, *choice), next.depth + 1});
+                    }
+                    return {};
+                }
+                if (!regions) {
+                    refusal = regions.error();
+                }
+            }
+        }
+        if (refusal) {
+            return fail(*refusal);
+        }
+        return fail("decompose.no_progress",
+                    "a part is too large for the machine and no plane divides it",
+                    "region " + std::to_string(next.region),
+                    "scale the model down, or choose a machine with a larger chamber");
+    }
+
+    /// The plan for a region that a planned cut gave: that of the planned piece most like it.
+    std::shared_ptr<PlannedCut>* plan_of(const cut::Complex& complex, std::int32_t region,
+                                         const part::Plane& plane, PlannedCut& planned) {
+        const part::Part part = complex.region(region);
+        const double volume = mesh::volume_mm3(part.mesh);
+        const Eigen::Vector3d centre = mesh::bounds(part.mesh).center();
+        double mean_height = 0;
+        for (const Eigen::Vector3d& point : part.mesh.points) {
+            mean_height += plane.normal.dot(point) - plane.offset_mm;
+        }
+        PlannedPiece* best = nullptr;
+        double best_distance = 0;
+        for (PlannedPiece& piece : planned.pieces) {
+            const double distance = (piece.centre - centre).norm();
+            const bool alike = piece.above == (mean_height > 0) &&
+                               std::abs(piece.volume_mm3 - volume) < kSameVolume * volume &&
+                               distance < kSameCentre * diagonal_;
+            if (alike && (best == nullptr || distance < best_distance)) {
+                best = &piece;
+                best_distance = distance;
+            }
+        }
+        if (best != nullptr) {
+            return &best->next;
+        }
+        strays_.emplace_back();
+        return &strays_.back();
+    }
+
+    /// Bottom up, then left to right, then front to back: how a person would number the parts.
+    [[nodiscard]] std::vector<std::int32_t> reading_order() const {
+        std::vector<std::pair<std::array<double, 3>, std::int32_t>> keys;
+        for (const Finished& one : finished_) {
+            const Eigen::Vector3d c = mesh::bounds(one.part.mesh).center();
+            const auto level = [&](double value) { return std::round(value / (1e-3 * diagonal_)); };
+            keys.push_back({{level(c.z()), level(c.x()), level(c.y())}, one.region});
+        }
+        std::sort(keys.begin(), keys.end());
+        std::vector<std::int32_t> order;
+        order.reserve(keys.size());
+        for (const auto& key : keys) {
+            order.push_back(key.second);
+        }
+        return order;
+    }
+
+    Result<Decomposition> written(const cut::Complex& complex, int merges) {
+        Result<part::Assembly> assembly = complex.assemble(reading_order(), run_);
+        if (!assembly) {
+            return fail(assembly.error());
+        }
+        Decomposition out;
+        out.assembly = std::move(*assembly);
+        out.tier = "T4";
+        for (const part::Part& part : out.assembly.parts) {
+            out.verdicts.push_back(judge_(part, part::Fidelity::Exact));
+            out.poses.push_back(out.verdicts.back().best_pose);
+            if (!out.verdicts.back().ok()) {
+                return fail("decompose.no_progress", "a part is too large once it is rounded",
+                            part.id);
+            }
+        }
+        std::set<std::int32_t> planes;
+        for (const part::Interface& interface : out.assembly.interfaces) {
+            planes.insert(interface.plane);
+        }
+        out.cuts = static_cast<int>(planes.size());
+        if (merges > 0) {
+            out.notes.push_back(std::to_string(merges) + (merges == 1 ? " pair" : " pairs") +
+                                " of neighbours united after cutting");
+        }
+        run_.progress("decompose", 1);
+        return out;
+    }
+
+    const DecomposeOptions& options_;
+    const part::Judge& judge_;
+    Run& run_;
+    double diagonal_;
+    std::vector<std::shared_ptr<PlannedCut>> roots_;  // plans survive a second attempt
+    std::deque<std::shared_ptr<PlannedCut>> strays_;  // plans of regions that no plan foresaw
+    std::vector<Finished> finished_;
+};
+
+}  // namespace
+
+Result<Decomposition> decompose(const mesh::TriMesh& volume, const DecomposeOptions& options,
+                                const part::Judge& judge, Run& run) {
+    run.progress("decompose", 0);
+    Result<cut::Complex> complex = cut::Complex::from_volume(volume);
+    if (!complex) {
+        return fail(complex.error());
+    }
+    return Decomposer(volume, options, judge, run).decompose(*complex);
+}
+
+}  // namespace decomp::pipeline

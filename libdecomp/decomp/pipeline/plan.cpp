@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/pipeline/plan.h"
+
+#include "decomp/base/parallel.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/pipeline/candidates.h"
+#include "decomp/pipeline/proxy.h"
+#include "decomp/sections/trial_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace decomp::pipeline {
+
+namespace {
+
+// Weights of the search, in parts: a cost of 1 is worth one part more.
+constexpr double kAreaWeight =
+    0.6;  // cut area / volume^(2/3) of what is cut; 1 for a cube's middle
+constexpr double kSupportWeight = 0.8;  // surface that needs support / surface
+constexpr double kBalanceWeight =
+    0.15;  // difference of the volumes on both sides / volume, away from necks
+constexpr double kOffAxis = 0.12;      // a plane perpendicular to no model axis
+constexpr double kThinPenalty = 3;     // a tongue
+constexpr double kSlimPenalty = 0.5;   // what is nearly one
+constexpr double kSlimFactor = 2.5;    // "nearly", in units of thin_share
+constexpr double kOversize = 0.35;     // per natural logarithm of a violation's ratio
+constexpr double kExtraOutline = 0.1;  // per piece beyond two: more joints to glue
+constexpr double kStuck = 50;          // no plane was found below here
+constexpr double kInflation = 1.002;   // stand-ins are judged this much larger than they are
+constexpr int kMaxDepth = 12;
+constexpr std::int32_t kFirstTrialPlane = 1 << 28;  // never the index of a real plane
+constexpr std::size_t kAlike = 2;  // candidates of one direction followed to the end
+
+/// What is the same for the whole search.
+struct Search {
+    const DecomposeOptions& options;
+    const part::Judge& judge;
+    double diagonal_mm;
+    Run& run;
+};
+
+/// Chambers that a misfit fills, at least 2: the parts to expect of it.
+double parts_needed(const part::Verdict& verdict) {
+    if (verdict.ok()) {
+        return 1;
+    }
+    double chambers = 1;
+    double oversize = 0;
+    for (const part::Violation& violation : verdict.violations) {
+        chambers *= std::ceil(std::min(violation.by_ratio, 1e3) - 1e-9);
+        oversize += std::log(violation.by_ratio);
+    }
+    return std::max(2.0, chambers) + kOversize * oversize;
+}
+
+/// A candidate that was tried.
+struct Trial {
+    Candidate candidate;
+    std::vector<sections::TrialPiece> pieces;
+    std::vector<part::Verdict> verdicts;
+    double penalty = 0;   // of this cut alone
+    double estimate = 0;  // penalty and parts to expect
+};
+
+double thin_penalty(double bridge_mm, const Search& search) {
+    const double thin = search.options.thin_share * search.diagonal_mm;
+    if (bridge_mm < thin) {
+        return kThinPenalty;
+    }
+    const double slim = kSlimFactor * thin;
+    return bridge_mm < slim ? kSlimPenalty * (slim - bridge_mm) / (slim - thin) : 0;
+}
+
+std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, double needed,
+                           int depth, const Search& search) {
+    Trial trial;
+    trial.candidate = candidate;
+    trial.pieces = sections::trial_cut(part, candidate.plane, kFirstTrialPlane + depth);
+    if (trial.pieces.size() < 2) {
+        return std::nullopt;
+    }
+    double volume = 0;
+    double above = 0;
+    double interface = 0;
+    double support = 0;
+    for (const sections::TrialPiece& piece : trial.pieces) {
+        volume += piece.volume_mm3;
+        above += piece.above ? piece.volume_mm3 : 0;
+        interface += piece.interface_mm2 / 2;
+    }
+    bool progress = true;
+    for (const sections::TrialPiece& piece : trial.pieces) {
+        trial.verdicts.push_back(search.judge(piece.part, part::Fidelity::Estimate));
+        const part::Verdict& verdict = trial.verdicts.back();
+        const double pieces_needed = parts_needed(verdict);
+        trial.estimate += pieces_needed;
+        support += verdict.ok() ? verdict.support_area_mm2 : 0;
+        trial.penalty += thin_penalty(piece.bridge_mm, search);
+        progress = progress && (verdict.ok() || piece.volume_mm3 < 0.9 * volume ||
+                                pieces_needed < needed - 0.05);
+    }
+    if (!progress || volume <= 0) {
+        return std::nullopt;
+    }
+    const double imbalance = std::abs(2 * above - volume) / volume;
+    trial.penalty += kAreaWeight * interface / std::pow(volume, 2.0 / 3.0);
+    trial.penalty += kSupportWeight * support / mesh::area_mm2(part.mesh);
+    trial.penalty += kBalanceWeight * imbalance * (1 - candidate.event);
+    trial.penalty += candidate.on_axis ? 0 : kOffAxis;
+    trial.penalty += kExtraOutline * static_cast<double>(trial.pieces.size() - 2);
+    trial.estimate += trial.penalty;
+    return trial;
+}
+
+std::vector<Trial> all_tried(const part::Part& part, const part::Verdict& verdict, int depth,
+                             const Search& search) {
+    const int offsets =
+        depth == 0 ? search.options.offsets : std::max(7, search.options.offsets / 2);
+    const std::vector<Candidate> planes = candidates(part, verdict, offsets);
+    const double needed = parts_needed(verdict);
+    std::vector<std::optional<Trial>> slots(planes.size());
+    for_each_index(search.run, planes.size(), [&](std::size_t i) {
+        slots[i] = tried(part, planes[i], needed, depth, search);
+        if (slots[i]) {
+            // Only the few that are followed need their meshes: they are made again.
+            slots[i]->pieces.clear();
+        }
+    });
+    std::vector<Trial> trials;
+    for (std::optional<Trial>& slot : slots) {
+        if (slot) {
+            trials.push_back(std::move(*slot));
+        }
+    }
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const Trial& a, const Trial& b) { return a.estimate < b.estimate; });
+    return trials;
+}
+
+/// The most promising trials, at most kAlike of one direction.
+std::vector<Trial> most_promising(std::vector<Trial> trials, std::size_t count) {
+    std::vector<Trial> out;
+    for (Trial& trial : trials) {
+        const auto alike = std::count_if(out.begin(), out.end(), [&](const Trial& other) {
+            return other.candidate.direction == trial.candidate.direction;
+        });
+        if (out.size() < count && static_cast<std::size_t>(alike) < kAlike) {
+            out.push_back(std::move(trial));
+        }
+    }
+    return out;
+}
+
+std::shared_ptr<PlannedCut> best_cut(const part::Part& part, const part::Verdict& verdict,
+                                     int depth, const Search& search);
+
+/// Follows one trial to the end.
+PlannedCut followed(const part::Part& part, const Trial& trial, int depth, const Search& search) {
+    PlannedCut cut;
+    cut.plane = trial.candidate.plane;
+    cut.cost = trial.penalty;
+    const auto pieces = sections::trial_cut(part, trial.candidate.plane, kFirstTrialPlane + depth);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        PlannedPiece planned;
+        planned.above = pieces[i].above;
+        planned.volume_mm3 = pieces[i].volume_mm3;
+        planned.centre = mesh::bounds(pieces[i].part.mesh).center();
+        if (trial.verdicts[i].ok()) {
+            cut.cost += 1;
+        } else {
+            planned.next = best_cut(pieces[i].part, trial.verdicts[i], depth + 1, search);
+            cut.cost += planned.next ? planned.next->cost : kStuck;
+        }
+        cut.pieces.push_back(std::move(planned));
+    }
+    return cut;
+}
+
+std::shared_ptr<PlannedCut> best_cut(const part::Part& part, const part::Verdict& verdict,
+                                     int depth, const Search& search) {
+    if (depth >= kMaxDepth || search.run.cancelled()) {
+        return nullptr;
+    }
+    const int width = std::max(1, search.options.lookahead - depth);
+    std::shared_ptr<PlannedCut> best;
+    for (const Trial& trial :
+         most_promising(all_tried(part, verdict, depth, search), static_cast<std::size_t>(width))) {
+        // The estimate without its logarithmic share is seldom beaten by what follows.
+        auto cut = std::make_shared<PlannedCut>(followed(part, trial, depth, search));
+        if (!best || cut->cost < best->cost - 1e-9) {
+            best = std::move(cut);
+        }
+    }
+    return best;
+}
+
+/// Carries a plan from the inflated stand-in back to the part.
+void deflate(PlannedCut& cut, const Eigen::Vector3d& centre) {
+    // x' = c + s (x - c): n . x' = d  <=>  n . x = n . c + (d - n . c) / s
+    const double at_centre = cut.plane.normal.dot(centre);
+    cut.plane.offset_mm = at_centre + (cut.plane.offset_mm - at_centre) / kInflation;
+    for (PlannedPiece& piece : cut.pieces) {
+        piece.volume_mm3 /= kInflation * kInflation * kInflation;
+        piece.centre = centre + (piece.centre - centre) / kInflation;
+        if (piece.next) {
+            deflate(*piece.next, centre);
+        }
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<PlannedCut> plan_cut(const part::Part& part, const DecomposeOptions& options,
+                                     const part::Judge& judge, double root_diagonal_mm, Run& run) {
+    part::Part stand_in =
+        simplified(part, static_cast<std::size_t>(std::max(500, options.proxy_triangles)));
+    const Eigen::Vector3d centre = mesh::bounds(stand_in.mesh).center();
+    for (Eigen::Vector3d& point : stand_in.mesh.points) {
+        point = centre + kInflation * (point - centre);
+    }
+    const Search search{options, judge, root_diagonal_mm, run};
+    const part::Verdict verdict = judge(stand_in, part::Fidelity::Estimate);
+    std::shared_ptr<PlannedCut> plan = best_cut(stand_in, verdict, 0, search);
+    if (plan) {
+        deflate(*plan, centre);
+    }
+    return plan;
+}
+
+}  // namespace decomp::pipeline
