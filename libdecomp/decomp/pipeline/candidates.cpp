@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/pipeline/candidates.h"
 
-#include "decomp/mesh/measure.h"
+#include "decomp/mesh/flats.h"
 #include "decomp/sections/profile.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@ namespace {
 constexpr int kStations = 96;
 constexpr double kSameDirection = 0.9998;  // cosine of about 1 degree
 constexpr double kAxis = 1 - 1e-9;
+constexpr double kLargeFlat = 0.05;   // of the surface: cuts along it look meant
 constexpr double kEnds = 0.02;        // of the length: no plane closer to an end
 constexpr double kRelaxedNeck = 0.2;  // strength from which a neck's plane is relaxed
 constexpr std::size_t kRelaxed = 4;   // necks relaxed at most
@@ -54,15 +55,22 @@ struct Neck {
     double length;
 };
 
-void add_direction(const part::Part& part, int index, const Eigen::Vector3d& direction, int offsets,
+/// A direction, its number, and whether a person would think of it.
+struct Direction {
+    Eigen::Vector3d unit;
+    int index;
+    bool natural;
+};
+
+void add_direction(const part::Part& part, const Direction& direction, int offsets,
                    std::vector<Candidate>& out, std::vector<Neck>& necks) {
-    const sections::Profile profile(part.mesh, direction, kStations);
+    const sections::Profile profile(part.mesh, direction.unit, kStations);
     const double low = profile.low_mm();
     const double length = profile.high_mm() - low;
-    const bool on_axis = direction.cwiseAbs().maxCoeff() > kAxis;
     const auto add = [&](double offset, double strength) {
         if (offset > low + kEnds * length && offset < low + (1 - kEnds) * length) {
-            out.push_back({{direction, offset}, index, on_axis, strength});
+            out.push_back(
+                {{direction.unit, offset}, direction.index, direction.natural, false, strength});
         }
     };
     std::vector<sections::Event> events = profile.events();
@@ -73,7 +81,7 @@ void add_direction(const part::Part& part, int index, const Eigen::Vector3d& dir
     for (const sections::Event& event : events) {
         add(offset_at(profile, event), event.strength);
         if (event.kind == sections::EventKind::Neck && event.strength >= kRelaxedNeck) {
-            necks.push_back({event.strength, {direction, event.t_mm}, length});
+            necks.push_back({event.strength, {direction.unit, event.t_mm}, length});
         }
     }
     for (int i = 1; i <= offsets; ++i) {
@@ -86,19 +94,31 @@ void add_direction(const part::Part& part, int index, const Eigen::Vector3d& dir
     }
 }
 
+bool is_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::abs(a.dot(b)) > kSameDirection;
+}
+
 }  // namespace
 
-std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& verdict,
-                                  int offsets) {
+std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& verdict, int offsets,
+                                  const std::vector<part::Plane>& known) {
     std::vector<Candidate> out;
     std::vector<Neck> necks;
+    const std::vector<mesh::Flat> flats = mesh::large_flats(part.mesh, {.min_share = kLargeFlat});
+    const auto natural = [&](const Eigen::Vector3d& unit) {
+        return unit.cwiseAbs().maxCoeff() > kAxis ||
+               std::any_of(flats.begin(), flats.end(),
+                           [&](const mesh::Flat& flat) { return is_parallel(flat.normal, unit); });
+    };
     int index = 0;
-    for (const Eigen::Vector3d& direction : all_directions(part, verdict)) {
-        add_direction(part, index++, direction, offsets, out, necks);
+    for (const part::Plane& plane : known) {
+        out.push_back({plane, index++, true, true, 0});
+    }
+    for (const Eigen::Vector3d& unit : all_directions(part, verdict)) {
+        add_direction(part, {unit, index++, natural(unit)}, offsets, out, necks);
     }
     for (const part::Plane& plane : verdict.cuts_that_help) {
-        const bool on_axis = plane.normal.cwiseAbs().maxCoeff() > kAxis;
-        out.push_back({plane, index, on_axis, 0});
+        out.push_back({plane, index, natural(plane.normal.normalized()), false, 0});
     }
     ++index;
     std::stable_sort(necks.begin(), necks.end(),
@@ -108,7 +128,7 @@ std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& v
         const part::Plane plane = sections::refined_neck(
             part.mesh, neck.plane,
             {.max_tilt = kMaxTilt, .max_shift_mm = kMaxShift * neck.length, .rounds = 7});
-        out.push_back({plane, index++, false, neck.strength});
+        out.push_back({plane, index++, false, false, neck.strength});
     }
     return out;
 }

@@ -48,7 +48,11 @@ class Decomposer {
   public:
     Decomposer(const mesh::TriMesh& volume, const DecomposeOptions& options,
                const part::Judge& judge, Run& run)
-        : options_(options), judge_(judge), run_(run), diagonal_(mesh::diagonal_mm(volume)) {}
+        : options_(options),
+          judge_(judge),
+          run_(run),
+          diagonal_(mesh::diagonal_mm(volume)),
+          volume_(mesh::volume_mm3(volume)) {}
 
     Result<Decomposition> decompose(const cut::Complex& uncut) {
         roots_.resize(static_cast<std::size_t>(uncut.region_count()));
@@ -119,7 +123,7 @@ class Decomposer {
             return {};
         }
         if (next.plan != nullptr && !*next.plan && next.depth < kPlannedDepth) {
-            *next.plan = plan_cut(part, options_, judge_, diagonal_, run_);
+            *next.plan = plan_cut(part, options_, judge_, {diagonal_, volume_}, run_);
             if (run_.cancelled()) {
                 return cancelled();
             }
@@ -232,6 +236,7 @@ class Decomposer {
     const part::Judge& judge_;
     Run& run_;
     double diagonal_;
+    double volume_;
     std::vector<std::shared_ptr<PlannedCut>> roots_;  // plans survive a second attempt
     std::deque<std::shared_ptr<PlannedCut>> strays_;  // plans of regions that no plan foresaw
     std::vector<Finished> finished_;

@@ -23,14 +23,19 @@ constexpr double kAreaWeight =
 constexpr double kSupportWeight = 0.8;  // surface that needs support / surface
 constexpr double kBalanceWeight =
     0.15;  // difference of the volumes on both sides / volume, away from necks
-constexpr double kOffAxis = 0.12;      // a plane perpendicular to no model axis
-constexpr double kThinPenalty = 3;     // a tongue
-constexpr double kSlimPenalty = 0.5;   // what is nearly one
-constexpr double kSlimFactor = 2.5;    // "nearly", in units of thin_share
-constexpr double kOversize = 0.35;     // per natural logarithm of a violation's ratio
-constexpr double kExtraOutline = 0.1;  // per piece beyond two: more joints to glue
-constexpr double kStuck = 50;          // no plane was found below here
-constexpr double kInflation = 1.002;   // stand-ins are judged this much larger than they are
+constexpr double kOffAxis =
+    0.25;  // a plane perpendicular to no model axis, if nothing speaks for it
+constexpr double kThinPenalty = 3;      // a tongue
+constexpr double kSlimPenalty = 0.5;    // what is nearly one
+constexpr double kSlimFactor = 2.5;     // "nearly", in units of thin_share
+constexpr double kOversize = 0.35;      // per natural logarithm of a violation's ratio
+constexpr double kExtraOutline = 0.1;   // per piece beyond two: more joints to glue
+constexpr double kSharedBonus = 0.1;    // a plane that cuts a neighbour as well
+constexpr double kSmallShare = 0.1;     // of the volume of the whole: parts below are shards ...
+constexpr double kShardPenalty = 0.45;  // ... unless they hang on a neck
+constexpr double kStuck = 50;           // no plane was found below here
+constexpr double kInflation = 1.002;    // stand-ins are judged this much larger than they are
+constexpr double kTie = 1e-9;
 constexpr int kMaxDepth = 12;
 constexpr std::int32_t kFirstTrialPlane = 1 << 28;  // never the index of a real plane
 constexpr std::size_t kAlike = 2;  // candidates of one direction followed to the end
@@ -39,7 +44,8 @@ constexpr std::size_t kAlike = 2;  // candidates of one direction followed to th
 struct Search {
     const DecomposeOptions& options;
     const part::Judge& judge;
-    double diagonal_mm;
+    double diagonal_mm;  // of the whole shape
+    double volume_mm3;
     Run& run;
 };
 
@@ -66,13 +72,23 @@ struct Trial {
     double estimate = 0;  // penalty and parts to expect
 };
 
-double thin_penalty(double bridge_mm, const Search& search) {
+/// For tongues, and for shards: small pieces that do not hang on a neck.
+double shape_penalty(const sections::TrialPiece& piece, const Search& search) {
     const double thin = search.options.thin_share * search.diagonal_mm;
-    if (bridge_mm < thin) {
+    if (piece.bridge_mm < thin) {
         return kThinPenalty;
     }
     const double slim = kSlimFactor * thin;
-    return bridge_mm < slim ? kSlimPenalty * (slim - bridge_mm) / (slim - thin) : 0;
+    double penalty =
+        piece.bridge_mm < slim ? kSlimPenalty * (slim - piece.bridge_mm) / (slim - thin) : 0;
+    const double share = piece.volume_mm3 / (kSmallShare * search.volume_mm3);
+    // A neck's width is well below the length of what hangs on it; half a ball has 0.33, half a
+    // cube 0.5.
+    const double hanging = piece.bridge_mm / std::sqrt(piece.interface_mm2);
+    if (share < 1 && hanging < 1) {
+        penalty += kShardPenalty * (1 - share) * (1 - hanging);
+    }
+    return penalty;
 }
 
 std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, double needed,
@@ -99,7 +115,7 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
         const double pieces_needed = parts_needed(verdict);
         trial.estimate += pieces_needed;
         support += verdict.ok() ? verdict.support_area_mm2 : 0;
-        trial.penalty += thin_penalty(piece.bridge_mm, search);
+        trial.penalty += shape_penalty(piece, search);
         progress = progress && (verdict.ok() || piece.volume_mm3 < 0.9 * volume ||
                                 pieces_needed < needed - 0.05);
     }
@@ -109,22 +125,30 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
     const double imbalance = std::abs(2 * above - volume) / volume;
     trial.penalty += kAreaWeight * interface / std::pow(volume, 2.0 / 3.0);
     trial.penalty += kSupportWeight * support / mesh::area_mm2(part.mesh);
-    trial.penalty += kBalanceWeight * imbalance * (1 - candidate.event);
-    trial.penalty += candidate.on_axis ? 0 : kOffAxis;
+    trial.penalty += candidate.shared ? 0 : kBalanceWeight * imbalance * (1 - candidate.event);
+    trial.penalty += candidate.natural ? 0 : kOffAxis * (1 - candidate.event);
+    trial.penalty -= candidate.shared ? kSharedBonus : 0;
     trial.penalty += kExtraOutline * static_cast<double>(trial.pieces.size() - 2);
     trial.estimate += trial.penalty;
     return trial;
 }
 
-std::vector<Trial> all_tried(const part::Part& part, const part::Verdict& verdict, int depth,
-                             const Search& search) {
+/// A part to be cut, and the planes that cut its neighbours.
+struct Node {
+    const part::Part& part;
+    const part::Verdict& verdict;
+    int depth;
+    const std::vector<part::Plane>& known;
+};
+
+std::vector<Trial> all_tried(const Node& node, const Search& search) {
     const int offsets =
-        depth == 0 ? search.options.offsets : std::max(7, search.options.offsets / 2);
-    const std::vector<Candidate> planes = candidates(part, verdict, offsets);
-    const double needed = parts_needed(verdict);
+        node.depth == 0 ? search.options.offsets : std::max(7, search.options.offsets / 2);
+    const std::vector<Candidate> planes = candidates(node.part, node.verdict, offsets, node.known);
+    const double needed = parts_needed(node.verdict);
     std::vector<std::optional<Trial>> slots(planes.size());
     for_each_index(search.run, planes.size(), [&](std::size_t i) {
-        slots[i] = tried(part, planes[i], needed, depth, search);
+        slots[i] = tried(node.part, planes[i], needed, node.depth, search);
         if (slots[i]) {
             // Only the few that are followed need their meshes: they are made again.
             slots[i]->pieces.clear();
@@ -155,15 +179,24 @@ std::vector<Trial> most_promising(std::vector<Trial> trials, std::size_t count) 
     return out;
 }
 
-std::shared_ptr<PlannedCut> best_cut(const part::Part& part, const part::Verdict& verdict,
-                                     int depth, const Search& search);
+std::shared_ptr<PlannedCut> best_cut(const Node& node, const Search& search);
 
-/// Follows one trial to the end.
-PlannedCut followed(const part::Part& part, const Trial& trial, int depth, const Search& search) {
+void collect_planes(const PlannedCut& cut, std::vector<part::Plane>& planes) {
+    planes.push_back(cut.plane);
+    for (const PlannedPiece& piece : cut.pieces) {
+        if (piece.next) {
+            collect_planes(*piece.next, planes);
+        }
+    }
+}
+
+/// Follows one trial to the end. What cuts one piece is offered to the next.
+PlannedCut followed(const Node& node, const Trial& trial, const Search& search) {
     PlannedCut cut;
     cut.plane = trial.candidate.plane;
     cut.cost = trial.penalty;
-    const auto pieces = sections::trial_cut(part, trial.candidate.plane, kFirstTrialPlane + depth);
+    std::vector<part::Plane> known = node.known;
+    const auto pieces = sections::trial_cut(node.part, cut.plane, kFirstTrialPlane + node.depth);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         PlannedPiece planned;
         planned.above = pieces[i].above;
@@ -172,26 +205,27 @@ PlannedCut followed(const part::Part& part, const Trial& trial, int depth, const
         if (trial.verdicts[i].ok()) {
             cut.cost += 1;
         } else {
-            planned.next = best_cut(pieces[i].part, trial.verdicts[i], depth + 1, search);
+            planned.next =
+                best_cut({pieces[i].part, trial.verdicts[i], node.depth + 1, known}, search);
             cut.cost += planned.next ? planned.next->cost : kStuck;
+            if (planned.next) {
+                collect_planes(*planned.next, known);
+            }
         }
         cut.pieces.push_back(std::move(planned));
     }
     return cut;
 }
 
-std::shared_ptr<PlannedCut> best_cut(const part::Part& part, const part::Verdict& verdict,
-                                     int depth, const Search& search) {
-    if (depth >= kMaxDepth || search.run.cancelled()) {
+std::shared_ptr<PlannedCut> best_cut(const Node& node, const Search& search) {
+    if (node.depth >= kMaxDepth || search.run.cancelled()) {
         return nullptr;
     }
-    const int width = std::max(1, search.options.lookahead - depth);
+    const auto width = static_cast<std::size_t>(std::max(1, search.options.lookahead - node.depth));
     std::shared_ptr<PlannedCut> best;
-    for (const Trial& trial :
-         most_promising(all_tried(part, verdict, depth, search), static_cast<std::size_t>(width))) {
-        // The estimate without its logarithmic share is seldom beaten by what follows.
-        auto cut = std::make_shared<PlannedCut>(followed(part, trial, depth, search));
-        if (!best || cut->cost < best->cost - 1e-9) {
+    for (const Trial& trial : most_promising(all_tried(node, search), width)) {
+        auto cut = std::make_shared<PlannedCut>(followed(node, trial, search));
+        if (!best || cut->cost < best->cost - kTie) {
             best = std::move(cut);
         }
     }
@@ -215,16 +249,16 @@ void deflate(PlannedCut& cut, const Eigen::Vector3d& centre) {
 }  // namespace
 
 std::shared_ptr<PlannedCut> plan_cut(const part::Part& part, const DecomposeOptions& options,
-                                     const part::Judge& judge, double root_diagonal_mm, Run& run) {
+                                     const part::Judge& judge, const Whole& root, Run& run) {
     part::Part stand_in =
         simplified(part, static_cast<std::size_t>(std::max(500, options.proxy_triangles)));
     const Eigen::Vector3d centre = mesh::bounds(stand_in.mesh).center();
     for (Eigen::Vector3d& point : stand_in.mesh.points) {
         point = centre + kInflation * (point - centre);
     }
-    const Search search{options, judge, root_diagonal_mm, run};
+    const Search search{options, judge, root.diagonal_mm, root.volume_mm3, run};
     const part::Verdict verdict = judge(stand_in, part::Fidelity::Estimate);
-    std::shared_ptr<PlannedCut> plan = best_cut(stand_in, verdict, 0, search);
+    std::shared_ptr<PlannedCut> plan = best_cut({stand_in, verdict, 0, {}}, search);
     if (plan) {
         deflate(*plan, centre);
     }

@@ -29,12 +29,18 @@ struct PlannedCut {
     double cost = 0;  ///< parts to come and penalties, summed over everything below
 };
 
+/// The shape of which the part is one.
+struct Whole {
+    double diagonal_mm = 0;
+    double volume_mm3 = 0;
+};
+
 /// The best known way to cut a part with which the judge is not content: looks ahead along the most
 /// promising planes until every piece is fine. Null when no plane makes progress.
-/// @param root_diagonal_mm  what thinness is measured by
+/// @param root  what thinness and smallness are measured by
 [[nodiscard]] std::shared_ptr<PlannedCut> plan_cut(const part::Part& part,
                                                    const DecomposeOptions& options,
-                                                   const part::Judge& judge,
-                                                   double root_diagonal_mm, Run& run);
+                                                   const part::Judge& judge, const Whole& root,
+                                                   Run& run);
 
 }  // namespace decomp::pipeline
