@@ -338,6 +338,7 @@ decomp::part::Judge fdm_judge(const profile::FdmSetup& setup) {
         verdict.best_pose = best.pose;
         verdict.violations = best.violations;
         verdict.support_area_mm2 = best.support_area_mm2;
+        verdict.stable = best.stable;
         verdict.cuts_that_help = dividing_planes(best);
         return verdict;
     };

@@ -23,6 +23,7 @@ struct Verdict {
     Pose<PartBedFrame, ModelFrame>
         best_pose;  ///< the pose in which the violations (or their absence) were found
     double support_area_mm2 = 0;        ///< surface that needs support in best_pose
+    bool stable = true;                 ///< the centre of mass stands above the base in best_pose
     std::vector<Plane> cuts_that_help;  ///< where a cut would help most, best first; model frame
 
     [[nodiscard]] bool ok() const { return violations.empty(); }

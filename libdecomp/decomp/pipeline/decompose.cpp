@@ -6,6 +6,7 @@
 #include "decomp/mesh/measure.h"
 #include "decomp/pipeline/nudge.h"
 #include "decomp/pipeline/plan.h"
+#include "decomp/pipeline/settle.h"
 #include "decomp/pipeline/unite.h"
 
 #include <algorithm>
@@ -51,8 +52,7 @@ class Decomposer {
         : options_(options),
           judge_(judge),
           run_(run),
-          diagonal_(mesh::diagonal_mm(volume)),
-          volume_(mesh::volume_mm3(volume)) {}
+          whole_{mesh::diagonal_mm(volume), mesh::volume_mm3(volume)} {}
 
     Result<Decomposition> decompose(const cut::Complex& uncut) {
         roots_.resize(static_cast<std::size_t>(uncut.region_count()));
@@ -73,7 +73,8 @@ class Decomposer {
   private:
     Result<Decomposition> attempt(cut::Complex& complex, double nudge) {
         finished_.clear();
-        Status cut = cut_all(complex, nudge * diagonal_);
+        used_.clear();
+        Status cut = cut_all(complex, nudge * whole_.diagonal_mm);
         if (!cut) {
             return fail(cut.error());
         }
@@ -123,7 +124,7 @@ class Decomposer {
             return {};
         }
         if (next.plan != nullptr && !*next.plan && next.depth < kPlannedDepth) {
-            *next.plan = plan_cut(part, options_, judge_, {diagonal_, volume_}, run_);
+            *next.plan = plan_cut(part, options_, judge_, whole_, run_);
             if (run_.cancelled()) {
                 return cancelled();
             }
@@ -133,8 +134,13 @@ class Decomposer {
                                            &bisection};
         std::optional<Error> refusal;
         for (PlannedCut* choice : choices) {
-            for (int turn = 0; choice != nullptr && turn < kSplitTries; ++turn) {
-                const part::Plane plane = nudged(choice->plane, part.mesh, step_mm, turn);
+            if (choice == nullptr) {
+                continue;
+            }
+            const part::Plane aim = settled(part, *choice, judge_, whole_, run_);
+            for (int turn = 0; turn < kSplitTries; ++turn) {
+                const part::Plane plane = turn == 0 ? used_or_nudged(aim, part.mesh, step_mm)
+                                                    : nudged(aim, part.mesh, step_mm, turn);
                 Result<std::vector<std::int32_t>> regions = complex.split(next.region, plane);
                 if (regions && regions->size() > 1) {
                     for (const std::int32_t region : *regions) {
@@ -157,6 +163,17 @@ class Decomposer {
                     "scale the model down, or choose a machine with a larger chamber");
     }
 
+    /// A plane that two regions share is nudged once, so that it stays one plane.
+    part::Plane used_or_nudged(const part::Plane& aim, const mesh::TriMesh& mesh, double step_mm) {
+        for (const auto& [planned, cut] : used_) {
+            if (planned.normal == aim.normal && planned.offset_mm == aim.offset_mm) {
+                return cut;
+            }
+        }
+        used_.emplace_back(aim, nudged(aim, mesh, step_mm));
+        return used_.back().second;
+    }
+
     /// The plan for a region that a planned cut gave: that of the planned piece most like it.
     std::shared_ptr<PlannedCut>* plan_of(const cut::Complex& complex, std::int32_t region,
                                          const part::Plane& plane, PlannedCut& planned) {
@@ -173,7 +190,7 @@ class Decomposer {
             const double distance = (piece.centre - centre).norm();
             const bool alike = piece.above == (mean_height > 0) &&
                                std::abs(piece.volume_mm3 - volume) < kSameVolume * volume &&
-                               distance < kSameCentre * diagonal_;
+                               distance < kSameCentre * whole_.diagonal_mm;
             if (alike && (best == nullptr || distance < best_distance)) {
                 best = &piece;
                 best_distance = distance;
@@ -191,7 +208,9 @@ class Decomposer {
         std::vector<std::pair<std::array<double, 3>, std::int32_t>> keys;
         for (const Finished& one : finished_) {
             const Eigen::Vector3d c = mesh::bounds(one.part.mesh).center();
-            const auto level = [&](double value) { return std::round(value / (1e-3 * diagonal_)); };
+            const auto level = [&](double value) {
+                return std::round(value / (1e-3 * whole_.diagonal_mm));
+            };
             keys.push_back({{level(c.z()), level(c.x()), level(c.y())}, one.region});
         }
         std::sort(keys.begin(), keys.end());
@@ -235,9 +254,9 @@ class Decomposer {
     const DecomposeOptions& options_;
     const part::Judge& judge_;
     Run& run_;
-    double diagonal_;
-    double volume_;
-    std::vector<std::shared_ptr<PlannedCut>> roots_;  // plans survive a second attempt
+    Whole whole_;
+    std::vector<std::pair<part::Plane, part::Plane>> used_;  // as planned, as cut
+    std::vector<std::shared_ptr<PlannedCut>> roots_;         // plans survive a second attempt
     std::deque<std::shared_ptr<PlannedCut>> strays_;  // plans of regions that no plan foresaw
     std::vector<Finished> finished_;
 };

@@ -33,10 +33,12 @@ constexpr double kExtraOutline = 0.1;   // per piece beyond two: more joints to 
 constexpr double kSharedBonus = 0.1;    // a plane that cuts a neighbour as well
 constexpr double kSmallShare = 0.1;     // of the volume of the whole: parts below are shards ...
 constexpr double kShardPenalty = 0.45;  // ... unless they hang on a neck
-constexpr double kStuck = 50;           // no plane was found below here
+constexpr double kTopples = 0.5;        // a part that does not stand by itself
 constexpr double kInflation = 1.002;    // stand-ins are judged this much larger than they are
 constexpr double kTie = 1e-9;
-constexpr int kMaxDepth = 12;
+constexpr int kMaxDepth = 10;
+constexpr int kMaxNodes =
+    160;  // parts looked at in one search; what is beyond is estimated, and planned later
 constexpr std::int32_t kFirstTrialPlane = 1 << 28;  // never the index of a real plane
 constexpr std::size_t kAlike = 2;  // candidates of one direction followed to the end
 
@@ -116,6 +118,7 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
         trial.estimate += pieces_needed;
         support += verdict.ok() ? verdict.support_area_mm2 : 0;
         trial.penalty += shape_penalty(piece, search);
+        trial.penalty += verdict.ok() && !verdict.stable ? kTopples : 0;
         progress = progress && (verdict.ok() || piece.volume_mm3 < 0.9 * volume ||
                                 pieces_needed < needed - 0.05);
     }
@@ -179,7 +182,7 @@ std::vector<Trial> most_promising(std::vector<Trial> trials, std::size_t count) 
     return out;
 }
 
-std::shared_ptr<PlannedCut> best_cut(const Node& node, const Search& search);
+std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search& search);
 
 void collect_planes(const PlannedCut& cut, std::vector<part::Plane>& planes) {
     planes.push_back(cut.plane);
@@ -191,12 +194,15 @@ void collect_planes(const PlannedCut& cut, std::vector<part::Plane>& planes) {
 }
 
 /// Follows one trial to the end. What cuts one piece is offered to the next.
-PlannedCut followed(const Node& node, const Trial& trial, const Search& search) {
+PlannedCut followed(const Node& node, const Trial& trial, int budget, const Search& search) {
     PlannedCut cut;
     cut.plane = trial.candidate.plane;
     cut.cost = trial.penalty;
     std::vector<part::Plane> known = node.known;
     const auto pieces = sections::trial_cut(node.part, cut.plane, kFirstTrialPlane + node.depth);
+    const auto misfits = std::count_if(trial.verdicts.begin(), trial.verdicts.end(),
+                                       [](const part::Verdict& verdict) { return !verdict.ok(); });
+    const int share = misfits > 0 ? budget / static_cast<int>(misfits) : 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         PlannedPiece planned;
         planned.above = pieces[i].above;
@@ -206,8 +212,8 @@ PlannedCut followed(const Node& node, const Trial& trial, const Search& search) 
             cut.cost += 1;
         } else {
             planned.next =
-                best_cut({pieces[i].part, trial.verdicts[i], node.depth + 1, known}, search);
-            cut.cost += planned.next ? planned.next->cost : kStuck;
+                best_cut({pieces[i].part, trial.verdicts[i], node.depth + 1, known}, share, search);
+            cut.cost += planned.next ? planned.next->cost : parts_needed(trial.verdicts[i]);
             if (planned.next) {
                 collect_planes(*planned.next, known);
             }
@@ -217,14 +223,16 @@ PlannedCut followed(const Node& node, const Trial& trial, const Search& search) 
     return cut;
 }
 
-std::shared_ptr<PlannedCut> best_cut(const Node& node, const Search& search) {
-    if (node.depth >= kMaxDepth || search.run.cancelled()) {
+std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search& search) {
+    if (node.depth >= kMaxDepth || budget < 1 || search.run.cancelled()) {
         return nullptr;
     }
     const auto width = static_cast<std::size_t>(std::max(1, search.options.lookahead - node.depth));
     std::shared_ptr<PlannedCut> best;
-    for (const Trial& trial : most_promising(all_tried(node, search), width)) {
-        auto cut = std::make_shared<PlannedCut>(followed(node, trial, search));
+    const std::vector<Trial> trials = most_promising(all_tried(node, search), width);
+    for (const Trial& trial : trials) {
+        const int share = (budget - 1) / static_cast<int>(trials.size());
+        auto cut = std::make_shared<PlannedCut>(followed(node, trial, share, search));
         if (!best || cut->cost < best->cost - kTie) {
             best = std::move(cut);
         }
@@ -258,7 +266,7 @@ std::shared_ptr<PlannedCut> plan_cut(const part::Part& part, const DecomposeOpti
     }
     const Search search{options, judge, root.diagonal_mm, root.volume_mm3, run};
     const part::Verdict verdict = judge(stand_in, part::Fidelity::Estimate);
-    std::shared_ptr<PlannedCut> plan = best_cut({stand_in, verdict, 0, {}}, search);
+    std::shared_ptr<PlannedCut> plan = best_cut({stand_in, verdict, 0, {}}, kMaxNodes, search);
     if (plan) {
         deflate(*plan, centre);
     }
