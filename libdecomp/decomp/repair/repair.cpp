@@ -92,9 +92,12 @@ Result<Repaired> made_solid(const mesh::TriMesh& soup, const RepairOptions& opti
         return fail("repair.empty", "no triangle has an area", "",
                     "check the unit and that the export was complete");
     }
-    const mesh::TriMesh cleaned = work.mesh;
+    mesh::TriMesh to_wrap = work.mesh;
     run.progress("repair", 0.2);
     bool sound = close_surface(work);
+    if (sound) {
+        to_wrap = work.mesh;  // closed, so that no wrap creeps in through a hole
+    }
     run.progress("repair", 0.4);
     if (sound && !run.cancelled()) {
         const Result<bool> removed = remove_crossings(work);
@@ -108,7 +111,7 @@ Result<Repaired> made_solid(const mesh::TriMesh& soup, const RepairOptions& opti
         return cancelled();
     }
     if (!sound) {
-        if (decomp::Status wrapped = wrap_surface(work, cleaned); !wrapped) {
+        if (decomp::Status wrapped = wrap_surface(work, to_wrap); !wrapped) {
             return fail(wrapped.error());
         }
     }

@@ -45,8 +45,10 @@ inline std::string counted(std::size_t count, const std::string& noun) {
 
 /// Four digits that count, without exponent where that is readable.
 inline std::string figure(double value) {
+    constexpr double kSmall = 0.001;
+    constexpr double kLarge = 1'000'000;
     const double magnitude = std::abs(value);
-    if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3)) {
+    if (magnitude >= kLarge || (magnitude > 0 && magnitude < kSmall)) {
         const double power = std::floor(std::log10(magnitude));
         return decimal(value / std::pow(10.0, power), 3) + "e" + decimal(power, 0);
     }

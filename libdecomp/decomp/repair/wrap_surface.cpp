@@ -10,7 +10,7 @@ namespace decomp::repair {
 namespace {
 
 constexpr double kOffsetShare = 1.0 / 30;  // of alpha
-constexpr double kProbeShare = 1.0 / 25;   // of the diagonal: alpha of the coarsest wrap
+constexpr double kProbeShare = 1.0 / 20;   // of the diagonal: alpha of the coarsest wrap
 constexpr double kLeastVolumeKept =
     0.7;  // when alpha is halved; a sheet keeps half, a solid all but its rounding
 
