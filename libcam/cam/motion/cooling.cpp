@@ -24,34 +24,40 @@ path::Layer slowed(path::Layer layer, double factor, const profile::FdmSetup& se
     return layer;
 }
 
+/// The layer slowed just enough to take the wanted time, or as far as it may be.
+path::Layer slowed_to(double wanted_s, const path::Layer& layer, const profile::FdmSetup& setup) {
+    constexpr int kHalvings = 16;
+    // Accelerations keep the time from being proportional to 1 / factor, but it grows as the factor
+    // falls.
+    double slow = 0;
+    double fast = 1;
+    path::Layer best = slowed(layer, slow, setup);
+    if (layer_seconds(best, setup) <= wanted_s) {
+        return best;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = (slow + fast) / 2;
+        path::Layer candidate = slowed(layer, middle, setup);
+        if (layer_seconds(candidate, setup) >= wanted_s) {
+            slow = middle;
+            best = std::move(candidate);
+        } else {
+            fast = middle;
+        }
+    }
+    return best;
+}
+
 }  // namespace
 
 path::LayerStack cooled(path::LayerStack stack, const profile::FdmSetup& setup) {
     // Close enough: below what anybody could measure, and a second pass leaves the layer alone.
     constexpr double kCloseEnough = 1e-3;
-    constexpr int kHalvings = 16;
-    const double wanted = setup.material.min_layer_time_s;
+    const double wanted_s = setup.material.min_layer_time_s;
     for (path::Layer& layer : stack.layers) {
-        if (layer.beads.empty() || layer_seconds(layer, setup) >= wanted * (1 - kCloseEnough)) {
-            continue;
+        if (!layer.beads.empty() && layer_seconds(layer, setup) < wanted_s * (1 - kCloseEnough)) {
+            layer = slowed_to(wanted_s, layer, setup);
         }
-        // Accelerations keep the time from being proportional to 1 / factor, but it grows as the
-        // factor falls.
-        double slow = 0;
-        double fast = 1;
-        path::Layer best = slowed(layer, slow, setup);
-        if (layer_seconds(best, setup) > wanted) {
-            for (int i = 0; i < kHalvings; ++i) {
-                const double middle = (slow + fast) / 2;
-                path::Layer candidate = slowed(layer, middle, setup);
-                const double seconds = layer_seconds(candidate, setup);
-                (seconds >= wanted ? slow : fast) = middle;
-                if (seconds >= wanted) {
-                    best = std::move(candidate);
-                }
-            }
-        }
-        layer = std::move(best);
     }
     return stack;
 }

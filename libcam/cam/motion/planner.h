@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace cam::motion {
@@ -32,7 +33,7 @@ struct Segment {
 /// Sees `kLookAhead` moves at once, hence takes constant memory. Deterministic.
 class Planner {
   public:
-    explicit Planner(const profile::FdmMachine::Motion& motion) : motion_(motion) {}
+    explicit Planner(profile::FdmMachine::Motion motion) : motion_(std::move(motion)) {}
 
     /// Appends a move; those of no length are ignored.
     void add(const Segment& segment);

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace cam::plate {
 
@@ -68,8 +69,8 @@ struct Placed {
 
 class Plate {
   public:
-    Plate(const profile::BedArea& area, double spacing_mm, const std::vector<Reach>& reaches)
-        : area_(area), spacing_mm_(spacing_mm), reaches_(reaches) {}
+    Plate(profile::BedArea area, double spacing_mm, const std::vector<Reach>& reaches)
+        : area_(std::move(area)), spacing_mm_(spacing_mm), reaches_(reaches) {}
 
     /// The lowest, then leftmost free place among those where the part touches two things. Places
     /// it there.

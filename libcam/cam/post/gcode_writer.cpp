@@ -115,8 +115,8 @@ void GcodeWriter::end(double speed_mm_per_s, std::size_t undo_to, bool moved) {
 void GcodeWriter::move_xy(const Eigen::Vector2d& to, double filament_mm, double speed_mm_per_s) {
     const std::size_t before = text_.size();
     text_ += "G1";
-    bool moved = word(kX, to.x());
-    moved = word(kY, to.y()) || moved;
+    bool moved = word(X, to.x());
+    moved = word(Y, to.y()) || moved;
     total_e_mm_ += filament_mm;
     // A move too short for the grid leaves its filament to the next one, rather than feeding it at
     // a standstill.
@@ -129,7 +129,7 @@ void GcodeWriter::move_xy(const Eigen::Vector2d& to, double filament_mm, double 
 void GcodeWriter::move_z(double z_mm, double speed_mm_per_s) {
     const std::size_t before = text_.size();
     text_ += "G1";
-    end(speed_mm_per_s, before, word(kZ, z_mm));
+    end(speed_mm_per_s, before, word(Z, z_mm));
 }
 
 void GcodeWriter::feed_filament(double filament_mm, double speed_mm_per_s) {

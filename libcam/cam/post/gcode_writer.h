@@ -41,7 +41,7 @@ class GcodeWriter {
     [[nodiscard]] std::string take() && { return std::move(text_); }
 
   private:
-    enum Axis { kX, kY, kZ };
+    enum Axis { X, Y, Z };
 
     bool word(Axis axis, double value_mm);
     bool filament_word();

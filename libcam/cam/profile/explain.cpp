@@ -68,7 +68,7 @@ Templates are G-code with `{placeholders}`: a name, or an expression of names, n
 |---|---|---|
 )";
 
-std::string table_cell(std::string text) {
+std::string table_cell(const std::string& text) {
     std::string out;
     for (const char c : text) {
         out += c == '|' ? std::string("\\|") : std::string(1, c);

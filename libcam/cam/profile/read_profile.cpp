@@ -148,7 +148,7 @@ Status apply_setting(std::vector<Field>& fields, const std::string& setting) {
 
 Status apply_settings(std::vector<Field>& fields, const std::vector<std::string>& settings) {
     for (const std::string& setting : settings) {
-        const Status applied = apply_setting(fields, setting);
+        Status applied = apply_setting(fields, setting);
         if (!applied) {
             return applied;
         }

@@ -220,7 +220,10 @@ std::string store_checked(Field& field, const std::vector<double>& values) {
             const std::string said = std::isfinite(value) && std::abs(value) < 1e9
                                          ? decomp::decimal(value, 6)
                                          : decomp::shortest(value);
-            return name + " = " + said + " is outside " + range_text(field);
+            std::string fault = name;
+            fault += " = " + said;
+            fault += " is outside " + range_text(field);
+            return fault;
         }
         if (std::holds_alternative<int*>(field.target) && value != std::floor(value)) {
             return name + " must be a whole number";

@@ -80,7 +80,7 @@ class Expression {
             if (!plus && !take('-')) {
                 break;
             }
-            const Result<double> other = product(depth);
+            Result<double> other = product(depth);
             if (!other) {
                 return other;
             }
@@ -96,7 +96,7 @@ class Expression {
             if (!times && !take('/')) {
                 break;
             }
-            const Result<double> other = atom(depth);
+            Result<double> other = atom(depth);
             if (!other) {
                 return other;
             }
@@ -142,14 +142,14 @@ class Expression {
     }
 
     Result<double> smaller_or_larger(bool smaller, int depth) {
-        const Result<double> a = sum(depth + 1);
+        Result<double> a = sum(depth + 1);
         if (!a) {
             return a;
         }
         if (!take(',')) {
             return syntax("',' is missing");
         }
-        const Result<double> b = closed(sum(depth + 1));
+        Result<double> b = closed(sum(depth + 1));
         if (!b) {
             return b;
         }
@@ -257,8 +257,7 @@ Result<std::string> expand(std::string_view text, const TemplateValues& values) 
         if (end == std::string_view::npos) {
             return fail("profile.template_syntax", "'}' is missing", {}, "write {{ for a brace");
         }
-        const Result<std::string> value =
-            Expression(text.substr(i + 1, end - i - 1), values).evaluate();
+        Result<std::string> value = Expression(text.substr(i + 1, end - i - 1), values).evaluate();
         if (!value) {
             return value;
         }
