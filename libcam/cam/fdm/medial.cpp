@@ -33,6 +33,7 @@ constexpr double kSampleMm = 0.2;  // distance of samples on curved edges
 /// Width gained per length along a branch into a corner of angle 2 a is 2 sin a: corners blunter
 /// than 60 degrees are left to the round end of the bead.
 constexpr double kSteepestBranch = 1.0;
+constexpr double kMmPerNm = 1e-6;
 constexpr std::size_t kNone = ~std::size_t{0};
 
 /// An edge of the axis between two vertices of the diagram.
@@ -74,7 +75,7 @@ class MedialAxis {
 
     MedialPoint medial(const Vector2d& local_nm, double radius_nm) const {
         const Vector2d origin = polygon::to_mm(origin_);
-        return {origin + local_nm * 1e-6, 2e-6 * radius_nm};
+        return {origin + local_nm * kMmPerNm, 2 * kMmPerNm * radius_nm};
     }
 
     /// The site of a cell that stands for a segment's end point.
@@ -113,7 +114,7 @@ class MedialAxis {
             const double height = up.norm();
             const double t0 = (from - base).dot(along);
             const double t1 = (to - base).dot(along);
-            const int count = static_cast<int>(std::abs(t1 - t0) * 1e-6 / kSampleMm);
+            const int count = static_cast<int>(std::abs(t1 - t0) * kMmPerNm / kSampleMm);
             for (int i = 1; i <= count && height > 0; ++i) {
                 const double t = t0 + (t1 - t0) * i / (count + 1);
                 const double y = ((t - tf) * (t - tf) + height * height) / (2 * height);

@@ -26,6 +26,7 @@ namespace decomp::pipeline {
 namespace {
 
 constexpr std::array<double, 4> kNudges{3e-5, 5e-5, 7e-5, 1e-4};  // of the diagonal
+constexpr double kOneLevel = 1e-3;    // of the diagonal: centres this near are level
 constexpr int kSplitTries = 4;        // positions of one plane tried where a split is refused
 constexpr int kPlannedDepth = 24;     // deeper regions are only bisected
 constexpr double kSameVolume = 0.05;  // relative: a planned piece and the region that it became
@@ -209,7 +210,7 @@ class Decomposer {
         for (const Finished& one : finished_) {
             const Eigen::Vector3d c = mesh::bounds(one.part.mesh).center();
             const auto level = [&](double value) {
-                return std::round(value / (1e-3 * whole_.diagonal_mm));
+                return std::round(value / (kOneLevel * whole_.diagonal_mm));
             };
             keys.push_back({{level(c.z()), level(c.x()), level(c.y())}, one.region});
         }

@@ -59,7 +59,7 @@ double parts_needed(const part::Verdict& verdict) {
     double chambers = 1;
     double oversize = 0;
     for (const part::Violation& violation : verdict.violations) {
-        chambers *= std::ceil(std::min(violation.by_ratio, 1e3) - 1e-9);
+        chambers *= std::ceil(std::min(violation.by_ratio, 1e3) - kTie);
         oversize += std::log(violation.by_ratio);
     }
     return std::max(2.0, chambers) + kOversize * oversize;

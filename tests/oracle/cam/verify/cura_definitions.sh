@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cura_definitions.sh FOLDER: unpacks the printer definitions of the Debian package `cura` into FOLDER, unless they are
 # there. The package itself is not installed: of it, the engine needs these files only.
 set -eu
