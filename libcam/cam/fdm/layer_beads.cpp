@@ -23,14 +23,16 @@ using path::Feature;
 using polygon::Paths;
 using Process = profile::FdmMachine::Process;
 
-constexpr double kSolidLinkSpacings = 3;     // solid lines are linked over at most so many spacings
+constexpr double kSolidLinkSpacings = 15;    // solid lines are linked over at most so many spacings
 constexpr double kSparseLinkSpacings = 1.5;  // sparse lines likewise, of their own spacing
 constexpr double kInterfaceSpacings = 1.5;   // lines of support under the part, by bead spacings
 constexpr double kOutputToleranceMm = 0.004;
 constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
 constexpr double kLeastStripMm = 0.12;      // narrower strips are left to their neighbours
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
-constexpr double kWidthStepMm = 0.06;       // by which the width of a tapering bead changes
+constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
+constexpr double kFillOverlapRoundings = 1.5;
+constexpr double kWidthStepMm = 0.06;  // by which the width of a tapering bead changes
 
 Speed speed_of(Feature feature, const Process& process) {
     switch (feature) {
@@ -73,6 +75,18 @@ Paths filled(const Paths& region) {
         }
     }
     return polygon::region_of(outers);
+}
+
+/// The pieces worth a bead between lines that cover most of the rest.
+Paths without_crumbs(const Paths& region) {
+    Paths out;
+    for (const auto& island : polygon::islands(region)) {
+        const Paths loops = island.loops();
+        if (polygon::area_mm2(loops) >= kLeastScrapMm2) {
+            out.insert(out.end(), loops.begin(), loops.end());
+        }
+    }
+    return out;
 }
 
 /// The middle line of something as long as it is wide: along its longer side.
@@ -235,12 +249,18 @@ class LayerBeads {
     }
 
     void add_fill(Feature feature, const Paths& area, const FillPattern& pattern) {
-        // Line centres keep half a spacing from the area's edge. Walls leave a gap at the surface
-        // by their round flanks; the fill makes up for it by going that much further.
-        const double inset = (layer_.bead.spacing_mm() - layer_.bead.rounding_mm()) / 2;
-        for (Line& line : fill_with_lines(polygon::offset(area, -inset), pattern)) {
+        // Line centres keep half a spacing from the area's edge, less what the fill overlaps: walls
+        // leave a gap at the surface by their round flanks, and the fill has to hold on to them.
+        const double inset =
+            layer_.bead.spacing_mm() / 2 - kFillOverlapRoundings * layer_.bead.rounding_mm();
+        const Paths room = polygon::offset(area, -inset);
+        for (Line& line : fill_with_lines(room, pattern)) {
             IslandBeads& island = island_of(line.front());
             island.fill.push_back(bead(feature, std::move(line)));
+        }
+        if (feature != Feature::SparseInfill) {
+            const Paths scraps = polygon::subtract(area, polygon::offset(room, inset));
+            add_single_beads(feature, without_crumbs(scraps), layer_.bead.rounding_mm());
         }
     }
 

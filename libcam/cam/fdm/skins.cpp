@@ -74,6 +74,30 @@ void settle(const Paths& skin, const Paths& inside, const SkinOptions& options, 
     out.solid = out.sparse.empty() ? inside : polygon::subtract(inside, out.sparse);
 }
 
+/// Takes the bridges out of the other areas; solid scraps left beside a bridge join it.
+void make_room_for_bridges(Interior& interior) {
+    for (BridgeArea& bridge : interior.bridges) {
+        interior.solid = polygon::subtract(interior.solid, bridge.area);
+        interior.sparse = polygon::subtract(interior.sparse, bridge.area);
+    }
+    for (BridgeArea& bridge : interior.bridges) {
+        constexpr double kTouchMm = 0.01;
+        const Paths around = polygon::offset(bridge.area, kTouchMm);
+        Paths kept;
+        for (const polygon::Island& island : polygon::islands(interior.solid)) {
+            const Paths loops = island.loops();
+            const bool scrap = polygon::area_mm2(loops) < kLeastSparseMm2 &&
+                               !polygon::intersect(loops, around).empty();
+            if (scrap) {
+                bridge.area = polygon::closed(polygon::unite(bridge.area, loops), kTouchMm);
+            } else {
+                kept.insert(kept.end(), loops.begin(), loops.end());
+            }
+        }
+        interior.solid = std::move(kept);
+    }
+}
+
 }  // namespace
 
 std::vector<Interior> split_interiors(const std::vector<Paths>& slices,
@@ -113,10 +137,7 @@ std::vector<Interior> split_interiors(const std::vector<Paths>& slices,
             }
         }
         settle(skin, inside, options, interior);
-        for (BridgeArea& bridge : interior.bridges) {
-            interior.solid = polygon::subtract(interior.solid, bridge.area);
-            interior.sparse = polygon::subtract(interior.sparse, bridge.area);
-        }
+        make_room_for_bridges(interior);
     });
     return out;
 }
