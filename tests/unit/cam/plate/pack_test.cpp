@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/plate/pack.h"
 
+#include "cam/orient/choose_build.h"
 #include "cam/profile/bed_area.h"
 #include "cam/profile/read_profile.h"
 #include "decomp/base/rng.h"
@@ -127,6 +128,24 @@ TEST(Pack, APartThatFillsTheBedFitsAndOneALittleLargerDoesNot) {
     Footprint tall = rectangle(10, 10);
     tall.height_mm = 148.1;
     EXPECT_FALSE(pack({tall}, machine()));
+}
+
+TEST(Pack, APartThatJustPassesItsJudgeFitsAPlate) {
+    for (const char* name : {"flashforge-creator-pro", "prusa-mk3s"}) {
+        for (const char* brim : {"0", "5"}) {
+            const auto on = cam::profile::read_fdm_setup(
+                                name, "", {std::string("process.brim_width_mm=") + brim})
+                                ->machine;
+            Eigen::Vector3d size = cam::orient::usable_mm(on);
+            if (on.process.brim_width_mm > 0) {
+                size.head<2>().array() += 2 * cam::orient::border_mm(on);
+            }
+            Footprint part = rectangle(size.x(), size.y());
+            part.height_mm = size.z();
+            const auto placements = pack({part}, on);
+            EXPECT_TRUE(placements) << placements.error().text();
+        }
+    }
 }
 
 TEST(Pack, EqualSquaresFillTheirRows) {
