@@ -9,15 +9,14 @@
 #include "decomp/repair/untangle.h"
 #include "decomp/repair/work.h"
 
-#include <limits>
-
 namespace decomp::repair {
 
 namespace {
 
-constexpr std::size_t kFewCrossings = 400;     // pairs that are mended locally
-constexpr double kLargestMendedShift = 0.01;   // of the diagonal
-constexpr double kLargestMendedVolume = 0.01;  // of the volume
+constexpr std::size_t kFewCrossings = 400;         // pairs that are mended locally
+constexpr std::size_t kMostCrossings = 2'000'000;  // pairs beyond which nobody counts
+constexpr double kLargestMendedShift = 0.01;       // of the diagonal
+constexpr double kLargestMendedVolume = 0.01;      // of the volume
 
 struct Crossings {
     std::size_t within = 0;   ///< pairs of triangles of one shell
@@ -26,7 +25,7 @@ struct Crossings {
 
 Crossings count_crossings(const mesh::TriMesh& mesh) {
     Crossings count;
-    const auto pairs = self_intersections(mesh, std::numeric_limits<std::size_t>::max());
+    const auto pairs = self_intersections(mesh, kMostCrossings);
     if (pairs.empty()) {
         return count;
     }
@@ -82,6 +81,10 @@ Result<bool> unite(Work& work) {
                         (united->groups == 1 ? " body" : " bodies");
     if (united->subtracted > 0) {
         words += ", subtracting " + std::to_string(united->subtracted) + " that face inward";
+    }
+    if (united->shrunk_mm > 0) {
+        work.surface_moved = true;
+        words += ", shrinking some that only touch by up to " + figure(united->shrunk_mm) + " mm";
     }
     work.change(Status::United, words + ": volume " + figure(before) + " -> " +
                                     figure(mesh::volume_mm3(work.mesh)) +

@@ -10,18 +10,20 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace decomp::repair {
 
 namespace {
 
+constexpr std::size_t kMostCrossings = 10'000'000;  // pairs; far beyond any real assembly
+
 /// Shells by group: those that cross each other, directly or through others.
 std::vector<std::vector<std::uint32_t>> crossing_groups(const mesh::TriMesh& mesh,
                                                         const Components& parts) {
     Sets sets(parts.count);
-    for (const auto& [a, b] : self_intersections(mesh, std::numeric_limits<std::size_t>::max())) {
+    for (const auto& [a, b] : self_intersections(mesh, kMostCrossings)) {
         sets.unite(parts.of_triangle[a], parts.of_triangle[b]);
     }
     std::vector<std::vector<std::uint32_t>> members(parts.count);
@@ -93,14 +95,15 @@ Result<UnitedShells> unite_shells(mesh::TriMesh& mesh, const Run& run) {
         if (inward_leads) {
             std::swap(group.inward, group.outward);
         }
-        Result<mesh::TriMesh> united = exact_boolean(group.outward, group.inward, run);
+        Result<BooleanResult> united = exact_boolean(group.outward, group.inward, run);
         if (!united) {
             return fail(united.error());
         }
         if (cavity) {
-            flip(*united);
+            flip(united->mesh);
         }
-        append(out, *united);
+        append(out, united->mesh);
+        done.shrunk_mm = std::max(done.shrunk_mm, united->shrunk_mm);
         ++done.groups;
         done.shells += members.size();
         done.subtracted += group.inward.size();

@@ -13,6 +13,8 @@ struct UnitedShells {
     std::size_t groups = 0;      ///< sets of shells that cross each other
     std::size_t shells = 0;      ///< shells in them
     std::size_t subtracted = 0;  ///< of them, inward ones taken away from the others
+    double shrunk_mm =
+        0;  ///< largest shift of a shell that had to be shrunk to be united, see boolean.h
 };
 
 /// Replaces shells that cross each other by their exact union; inward shells that cross outward

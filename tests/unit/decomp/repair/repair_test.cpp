@@ -154,6 +154,32 @@ TEST(Repair, AUnionKeepsTheCavityBesideIt) {
     EXPECT_NEAR(result.report.volume_after_mm3, 64 + 8 - 1, 1e-12);
 }
 
+TEST(Repair, AChainThatTouchesItselfInAnEdgeIsCutApartThere) {
+    // A chain of six cubes, face to face, whose last meets the second in one edge.
+    TriMesh ring = tests::box({0, 0, 0}, {1, 1, 1});
+    for (const auto& [x, y, z] : std::vector<std::array<double, 3>>{
+             {1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}}) {
+        ring = tests::joined(ring, tests::box({x, y, z}, {x + 1, y + 1, z + 1}));
+    }
+    const Repaired result = repaired(ring);
+    EXPECT_NEAR(result.report.volume_after_mm3, 6, 1e-12);
+    EXPECT_EQ(result.report.shells, 1U);
+}
+
+TEST(Repair, ABoxWhoseEdgeLiesInAnothersFaceIsShrunkByAHairOrUnited) {
+    TriMesh wedge;
+    wedge.points = {{0, 0, 2}, {0, 4, 2}, {-1, 0, 3}, {-1, 4, 3}, {1, 0, 3}, {1, 4, 3}};
+    wedge.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5},
+                       {2, 3, 4}, {3, 5, 4}, {0, 2, 4}, {1, 5, 3}};
+    if (decomp::mesh::volume_mm3(wedge) < 0) {
+        wedge = tests::flipped(wedge);
+    }
+    const Repaired result = repaired(tests::joined(tests::box({-3, -3, 0}, {3, 7, 2}), wedge));
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_NEAR(result.report.volume_after_mm3, 120 + 4, 1e-3);
+    EXPECT_LT(result.report.hausdorff_mm, 1e-3);
+}
+
 TEST(Repair, ALooseSheetBesideABodyIsRemoved) {
     TriMesh mesh = tests::box({0, 0, 0}, {10, 10, 10});
     mesh.points.insert(mesh.points.end(), {{20, 0, 0}, {21, 0, 0}, {20, 1, 0}});
