@@ -23,10 +23,10 @@ class Ball {
 
     /// -1 or +1, or 0 when the bound reaches zero.
     [[nodiscard]] int sign() const {
-        if (std::abs(high_) <= 2 * (std::abs(low_) + error_)) {
-            return 0;
+        if (std::abs(high_) > 2 * (std::abs(low_) + error_)) {  // false for NaN, after an overflow
+            return high_ > 0 ? 1 : -1;
         }
-        return high_ > 0 ? 1 : -1;
+        return 0;
     }
 
     friend Ball operator+(const Ball& a, const Ball& b) {

@@ -88,48 +88,52 @@ Status unite_crowded(const Cells& cells, const std::vector<FaceSide>& sides,
     return {};
 }
 
-/// The shell of each side: sides joined across edges.
-Result<Bodies> shells_of(const Cells& cells, const std::vector<FaceSide>& sides) {
-    struct Count {
-        std::int32_t first = -1;
-        std::int32_t second = -1;
-        std::int16_t uses = 0;
-        std::int16_t balance = 0;
-    };
-
-    std::vector<Count> counts(cells.edges.size());
-    Sets sets(sides.size());
+/// Calls body(Use) for every edge that a side uses, in order.
+template <class Body>
+void for_each_use(const Cells& cells, const std::vector<FaceSide>& sides, const Body& body) {
     std::vector<Ref> leaves;
-    const auto for_each_use = [&](const auto& body) {
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            cells.expand(cells.face(sides[i].face), leaves);
-            for (const Ref leaf : leaves) {
-                if (!cells.edge(leaf).is_lone_vertex()) {
-                    body(Use{edge_of(leaf), static_cast<std::int32_t>(i),
-                             is_reversed(leaf) == sides[i].flipped});
-                }
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        cells.expand(cells.face(sides[i].face), leaves);
+        for (const Ref leaf : leaves) {
+            if (!cells.edge(leaf).is_lone_vertex()) {
+                body(Use{edge_of(leaf), static_cast<std::int32_t>(i),
+                         is_reversed(leaf) == sides[i].flipped});
             }
         }
-    };
+    }
+}
+
+/// Who uses an edge; `balance` is forward minus backward.
+struct EdgeUses {
+    std::int32_t first = -1;
+    std::int32_t second = -1;
+    std::int16_t count = 0;
+    std::int16_t balance = 0;
+};
+
+/// The shell of each side: sides joined across edges.
+Result<Bodies> shells_of(const Cells& cells, const std::vector<FaceSide>& sides) {
+    std::vector<EdgeUses> uses(cells.edges.size());
     bool any_crowded = false;
-    for_each_use([&](const Use& use) {
-        Count& c = counts[static_cast<std::size_t>(use.edge)];
-        (c.uses == 0 ? c.first : c.second) = use.item;
-        ++c.uses;
-        c.balance = static_cast<std::int16_t>(c.balance + (use.forward ? 1 : -1));
-        any_crowded = any_crowded || c.uses > 2;
+    for_each_use(cells, sides, [&](const Use& use) {
+        EdgeUses& u = uses[static_cast<std::size_t>(use.edge)];
+        (u.count == 0 ? u.first : u.second) = use.item;
+        ++u.count;
+        u.balance = static_cast<std::int16_t>(u.balance + (use.forward ? 1 : -1));
+        any_crowded = any_crowded || u.count > 2;
     });
+    Sets sets(sides.size());
     bool closed = true;
-    for (const Count& c : counts) {
-        closed = closed && c.balance == 0;
-        if (c.uses == 2) {
-            sets.unite(c.first, c.second);
+    for (const EdgeUses& u : uses) {
+        closed = closed && u.balance == 0;
+        if (u.count == 2) {
+            sets.unite(u.first, u.second);
         }
     }
     std::vector<Use> crowded;
     if (any_crowded) {
-        for_each_use([&](const Use& use) {
-            if (counts[static_cast<std::size_t>(use.edge)].uses > 2) {
+        for_each_use(cells, sides, [&](const Use& use) {
+            if (uses[static_cast<std::size_t>(use.edge)].count > 2) {
                 crowded.push_back(use);
             }
         });
@@ -320,6 +324,7 @@ Result<Bodies> bodies_of(const Cells& cells, const std::vector<FaceSide>& sides)
         shells[static_cast<std::size_t>(found->body[i])].push_back(sides[i]);
     }
     std::vector<int> signs;
+    signs.reserve(shells.size());
     for (const std::vector<FaceSide>& shell : shells) {
         signs.push_back(volume_sign(cells, shell));
     }

@@ -6,6 +6,7 @@
 #include "decomp/cut/shells.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 // How a region is split, seen along the plane:
@@ -370,19 +371,20 @@ class Splitter {
         if (!below || !above) {
             return fail(below ? above.error() : below.error());
         }
-        for (std::int32_t i = 0; i < below->count + above->count; ++i) {
-            ids.push_back(i == 0 ? region_ : cells_.regions++);
-        }
+        ids.resize(static_cast<std::size_t>(below->count) + static_cast<std::size_t>(above->count));
+        ids[0] = region_;
+        std::iota(ids.begin() + 1, ids.end(), cells_.regions);
+        cells_.regions += static_cast<std::int32_t>(ids.size()) - 1;
         const auto write = [&](const std::vector<FaceSide>& sides, const Bodies& bodies,
-                               std::int32_t shift) {
+                               std::size_t shift) {
             for (std::size_t i = 0; i < sides.size(); ++i) {
                 Face& face = cells_.faces[static_cast<std::size_t>(sides[i].face)];
                 (sides[i].flipped ? face.outside : face.inside) =
-                    ids[static_cast<std::size_t>(bodies.body[i] + shift)];
+                    ids[static_cast<std::size_t>(bodies.body[i]) + shift];
             }
         };
         write(below_, *below, 0);
-        write(above_, *above, below->count);
+        write(above_, *above, static_cast<std::size_t>(below->count));
         return ids;
     }
 

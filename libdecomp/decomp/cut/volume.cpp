@@ -7,6 +7,7 @@
 #include <gmpxx.h>
 
 #include <cmath>
+#include <unordered_map>
 
 namespace decomp::cut {
 
@@ -16,6 +17,24 @@ using Rational = mpq_class;
 
 /// Relative to the sum of magnitudes of the cones; their rounding stays far below it.
 constexpr double kVolumeFilter = 1e-9;
+
+/// Exact points, each made once.
+class ExactPoints {
+  public:
+    explicit ExactPoints(const Cells& cells) : cells_(cells) {}
+
+    const Vec<Rational>& of(std::int32_t vertex) {
+        const auto [entry, is_new] = known_.try_emplace(vertex);
+        if (is_new) {
+            entry->second = exact_point<Rational>(cells_, vertex);
+        }
+        return entry->second;
+    }
+
+  private:
+    const Cells& cells_;
+    std::unordered_map<std::int32_t, Vec<Rational>> known_;
+};
 
 /// Twice the area of the polygon in the projection, positive for a counter-clockwise one.
 template <class F, class PointOf>
@@ -91,7 +110,10 @@ Rational exact_six_volumes(const Cells& cells, const std::vector<FaceSide>& side
     if (sides.empty()) {
         return 0;
     }
-    const auto point_of = [&](std::int32_t vertex) { return exact_point<Rational>(cells, vertex); };
+    ExactPoints points(cells);
+    const auto point_of = [&](std::int32_t vertex) -> const Vec<Rational>& {
+        return points.of(vertex);
+    };
     const Vec<Rational> apex{Rational(0), Rational(0), Rational(0)};
     std::vector<Ref> leaves;
     std::vector<Rational> terms;
@@ -134,7 +156,10 @@ bool tiles_input_exactly(const Cells& cells) {
             ++pieces[static_cast<std::size_t>(face.carrier.index)];
         }
     }
-    const auto point_of = [&](std::int32_t vertex) { return exact_point<Rational>(cells, vertex); };
+    ExactPoints points(cells);
+    const auto point_of = [&](std::int32_t vertex) -> const Vec<Rational>& {
+        return points.of(vertex);
+    };
     std::vector<Rational> covered(count, 0);
     std::vector<Ref> leaves;
     for (const Face& face : cells.faces) {

@@ -239,15 +239,25 @@ void collect_interfaces(part::Assembly& assembly) {
     }
 }
 
+/// Least distance of a triangle's corners from a plane.
+double distance_mm(const part::Plane& plane, const mesh::TriMesh& mesh, std::uint32_t triangle) {
+    double least = HUGE_VAL;
+    for (const std::uint32_t corner : mesh.triangles[triangle]) {
+        least = std::min(least, std::abs(plane.normal.dot(mesh.points[corner]) - plane.offset_mm));
+    }
+    return least / plane.normal.norm();
+}
+
 /// The plane to blame for triangles that meet: one that they lie in, or else the nearest that cuts
 /// the part, if it is near; -1 for the input surface.
 std::int32_t plane_behind(const Cells& cells, const part::Part& part,
                           const std::array<std::uint32_t, 2>& triangles) {
     std::set<std::int32_t> cuts;
     for (const part::FacetSource& source : part.sources) {
-        cuts.insert(source.plane);
+        if (source.is_cut()) {
+            cuts.insert(source.plane);
+        }
     }
-    cuts.erase(-1);
     std::int32_t nearest = -1;
     double least = kNearPlane * mesh::diagonal_mm(part.mesh);
     for (const std::uint32_t triangle : triangles) {
@@ -255,14 +265,11 @@ std::int32_t plane_behind(const Cells& cells, const part::Part& part,
             return part.sources[triangle].plane;
         }
         for (const std::int32_t cut : cuts) {
-            const part::Plane& plane = cells.planes[static_cast<std::size_t>(cut)];
-            for (const std::uint32_t corner : part.mesh.triangles[triangle]) {
-                const double height = plane.normal.dot(part.mesh.points[corner]) - plane.offset_mm;
-                const double distance = std::abs(height) / plane.normal.norm();
-                if (distance < least) {
-                    nearest = cut;
-                    least = distance;
-                }
+            const double distance =
+                distance_mm(cells.planes[static_cast<std::size_t>(cut)], part.mesh, triangle);
+            if (distance < least) {
+                nearest = cut;
+                least = distance;
             }
         }
     }

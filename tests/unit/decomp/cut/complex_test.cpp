@@ -317,3 +317,36 @@ TEST(Complex, BytesDoNotDependOnJobs) {
         EXPECT_EQ(a->parts[i].mesh.triangles, b->parts[i].mesh.triangles);
     }
 }
+
+TEST(Complex, RoundingThatMakesAPartIntersectItselfNamesThePlane) {
+    // A plane that passes 1e-16 beside points of the ball, and one well away from them.
+    const auto mesh = tests::sphere(10, 32, 15);
+    Complex complex = complex_of(mesh);
+    ASSERT_EQ(complex.split(0, {kZ, 3.3})->size(), 2U);
+    ASSERT_EQ(complex.split(0, {kY, 0})->size(), 2U);
+    const auto assembly = complex.assemble(tests::all_regions(complex), decomp::Run{});
+    ASSERT_FALSE(assembly.has_value());
+    EXPECT_EQ(assembly.error().code, "cut.rounding_intersects");
+    EXPECT_NE(assembly.error().where.find("plane 1"), std::string::npos) << assembly.error().where;
+    Complex moved = complex_of(mesh);
+    ASSERT_EQ(moved.split(0, moved.nudged_off_vertices(0, {kY, 0}, 1e-3))->size(), 2U);
+    expect_sound(moved, mesh);
+}
+
+TEST(Complex, EveryRegionMustBeListedOnce) {
+    Complex complex = complex_of(box({0, 0, 0}, {1, 1, 1}));
+    split_all(complex, {kX, 0.5});
+    EXPECT_EQ(complex.assemble({0}, decomp::Run{}).error().code, "cut.bad_order");
+    EXPECT_EQ(complex.assemble({0, 0}, decomp::Run{}).error().code, "cut.bad_order");
+    EXPECT_EQ(complex.assemble({0, 1, 7}, decomp::Run{}).error().code, "cut.bad_order");
+    EXPECT_EQ(complex.assemble({1, 0}, decomp::Run{})->parts[0].sources.size(), 20U);
+}
+
+TEST(Complex, ACancelledAssemblySaysSo) {
+    Complex complex = complex_of(box({0, 0, 0}, {1, 1, 1}));
+    std::stop_source stop;
+    stop.request_stop();
+    decomp::Run run;
+    run.stop = stop.get_token();
+    EXPECT_EQ(complex.assemble({0}, run).error().code, "run.cancelled");
+}
