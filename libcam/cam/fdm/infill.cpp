@@ -125,7 +125,7 @@ class LineFill {
 
     /// Length of the boundary from one crossing to the next one on the same loop; stops counting
     /// beyond the limit.
-    double way_mm(const Crossing& from, const Crossing& to) const {
+    [[nodiscard]] double way_mm(const Crossing& from, const Crossing& to) const {
         const auto& loop = loops_[from.loop];
         Vector2d at = point(from);
         double length = 0;
@@ -142,7 +142,7 @@ class LineFill {
         return length + (point(to) - at).norm();
     }
 
-    std::vector<Link> possible_links() const {
+    [[nodiscard]] std::vector<Link> possible_links() const {
         std::vector<Link> out;
         for (std::size_t begin = 0; begin < crossings_.size();) {
             std::size_t end = begin;
@@ -213,7 +213,7 @@ class LineFill {
         line.insert(line.end(), between.begin(), between.end());
     }
 
-    std::vector<Line> chains() const {
+    [[nodiscard]] std::vector<Line> chains() const {
         std::vector<Line> out;
         std::vector<char> used(crossings_.size(), 0);
         for (const std::size_t start : sorted_) {

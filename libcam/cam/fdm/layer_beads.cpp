@@ -121,7 +121,7 @@ class LayerBeads {
     }
 
   private:
-    Bead bead(Feature feature, Line points) const {
+    [[nodiscard]] Bead bead(Feature feature, Line points) const {
         Bead out;
         out.feature = feature;
         out.points = std::move(points);
@@ -264,7 +264,7 @@ class LayerBeads {
         }
     }
 
-    Feature solid_feature(const Paths& area) const {
+    [[nodiscard]] Feature solid_feature(const Paths& area) const {
         const double half = polygon::area_mm2(area) / 2;
         const auto share = [&](const Paths& open) {
             return open.empty() ? 0 : polygon::area_mm2(polygon::intersect(area, open));
@@ -277,7 +277,7 @@ class LayerBeads {
     }
 
     /// The solid lines of one layer lie across those of the next.
-    Angle layer_angle() const {
+    [[nodiscard]] Angle layer_angle() const {
         return index_ % 2 == 0
                    ? process_.infill_angle
                    : Angle::radians(process_.infill_angle.radians() + Angle::degrees(90).radians());

@@ -62,7 +62,7 @@ class MedialAxis {
     }
 
   private:
-    GridPoint grid(const Point& p) const {
+    [[nodiscard]] GridPoint grid(const Point& p) const {
         return {static_cast<std::int32_t>(p.x - origin_.x),
                 static_cast<std::int32_t>(p.y - origin_.y)};
     }
@@ -73,7 +73,7 @@ class MedialAxis {
 
     static Vector2d local(const Vertex& v) { return {v.x(), v.y()}; }
 
-    MedialPoint medial(const Vector2d& local_nm, double radius_nm) const {
+    [[nodiscard]] MedialPoint medial(const Vector2d& local_nm, double radius_nm) const {
         const Vector2d origin = polygon::to_mm(origin_);
         return {origin + local_nm * kMmPerNm, 2 * kMmPerNm * radius_nm};
     }
@@ -86,7 +86,7 @@ class MedialAxis {
                          : s.high());
     }
 
-    double distance(const Vector2d& p, const Cell& cell) const {
+    [[nodiscard]] double distance(const Vector2d& p, const Cell& cell) const {
         if (cell.contains_point()) {
             return (p - site_point(cell)).norm();
         }
@@ -97,7 +97,7 @@ class MedialAxis {
     }
 
     /// Samples of an edge; a parabola where one site is a point and the other a segment.
-    MedialLine sampled(const Edge& edge) const {
+    [[nodiscard]] MedialLine sampled(const Edge& edge) const {
         const Vector2d from = local(*edge.vertex0());
         const Vector2d to = local(*edge.vertex1());
         const Cell& cell = *edge.cell();
@@ -143,7 +143,7 @@ class MedialAxis {
     }
 
     /// Shortens an edge whose one end is too narrow; false when all of it is.
-    bool clip_to_least_width(AxisEdge& axis) const {
+    [[nodiscard]] bool clip_to_least_width(AxisEdge& axis) const {
         MedialLine& line = axis.line;
         if (line.front().width_mm < least_width_mm_ && line.back().width_mm < least_width_mm_) {
             return false;
@@ -167,13 +167,13 @@ class MedialAxis {
         return true;
     }
 
-    std::size_t index_of(const Vertex* vertex) const {
+    [[nodiscard]] std::size_t index_of(const Vertex* vertex) const {
         return static_cast<std::size_t>(vertex - diagram_.vertices().data());
     }
 
     /// Whether an edge lies in the region: loops have the region on their left, so a point is
     /// inside when it is on the left of the nearest segment, which is the cell's own.
-    bool inside(const Edge& edge) const {
+    [[nodiscard]] bool inside(const Edge& edge) const {
         const Vector2d middle = (local(*edge.vertex0()) + local(*edge.vertex1())) / 2;
         for (const Edge* side : {&edge, edge.twin()}) {
             const Cell& cell = *side->cell();
@@ -234,7 +234,7 @@ class MedialAxis {
     }
 
     /// The unused edge that leads on at a vertex of two edges.
-    std::size_t next_edge(std::size_t vertex, const std::vector<char>& used) const {
+    [[nodiscard]] std::size_t next_edge(std::size_t vertex, const std::vector<char>& used) const {
         const auto& edges = at_vertex_[vertex];
         if (edges.size() == 2) {
             for (const std::size_t e : edges) {
@@ -246,7 +246,8 @@ class MedialAxis {
         return kNone;
     }
 
-    MedialLine walk(std::size_t vertex, std::size_t edge, std::vector<char>& used) const {
+    [[nodiscard]] MedialLine walk(std::size_t vertex, std::size_t edge,
+                                  std::vector<char>& used) const {
         MedialLine out;
         while (edge != kNone) {
             used[edge] = 1;
@@ -262,18 +263,24 @@ class MedialAxis {
         return out;
     }
 
-    std::vector<MedialLine> chains() const {
+    [[nodiscard]] std::vector<MedialLine> chains() const {
         std::vector<MedialLine> out;
         std::vector<char> used(edges_.size(), 0);
-        // From ends and junctions first; what is left are rings.
-        for (const bool rings : {false, true}) {
-            for (std::size_t e = 0; e < edges_.size(); ++e) {
-                for (const std::size_t v : edges_[e].ends) {
-                    if (used[e] == 0 && (rings || at_vertex_[v].size() != 2)) {
-                        out.push_back(walk(v, e, used));
-                    }
+        const auto start = [&](std::size_t vertex, std::size_t edge) {
+            if (used[edge] == 0) {
+                out.push_back(walk(vertex, edge, used));
+            }
+        };
+        for (std::size_t v = 0; v < at_vertex_.size(); ++v) {
+            for (const std::size_t e : at_vertex_[v]) {
+                if (at_vertex_[v].size() != 2) {
+                    start(v, e);
                 }
             }
+        }
+        // What is left are rings.
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            start(edges_[e].ends[0], e);
         }
         return out;
     }

@@ -27,52 +27,67 @@ struct GridPoint {
     std::int64_t x, y, z;
 };
 
-/// Side i of a triangle runs from corner i to corner i + 1; across[3 t + i] is the triangle on its
-/// other side.
-std::optional<std::vector<std::uint32_t>> neighbours_across_sides(const TriMesh& mesh,
-                                                                  std::uint32_t& open_triangle) {
-    struct Side {
-        std::uint32_t far_end;
-        bool upward;  ///< runs from the lower to the higher vertex index
-        std::uint32_t slot;
-    };
+/// Side i of a triangle runs from corner i to corner i + 1.
+struct Side {
+    std::uint32_t far_end;  ///< the higher of its two vertices
+    bool upward;            ///< runs from the lower to the higher vertex index
+    std::uint32_t slot;     ///< 3 * triangle + i
+};
 
-    const auto sides = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+/// All sides by their lower vertex: side k of vertex v is sides[first[v] + k]. A counting sort,
+/// since meshes may have millions of triangles.
+struct SidesByVertex {
+    std::vector<std::uint32_t> first;
+    std::vector<Side> sides;
+};
+
+SidesByVertex sides_by_vertex(const TriMesh& mesh) {
+    const auto count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     const auto ends = [&](std::uint32_t slot) {
         const Triangle& t = mesh.triangles[slot / 3];
         return std::pair(t.at(slot % 3), t.at((slot + 1) % 3));
     };
-    // Sides bucketed by their lower end: a counting sort, since meshes may have millions of
-    // triangles.
-    std::vector<std::uint32_t> first(mesh.points.size() + 1, 0);
-    for (std::uint32_t slot = 0; slot < sides; ++slot) {
+    SidesByVertex out;
+    out.first.assign(mesh.points.size() + 1, 0);
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
         const auto [a, b] = ends(slot);
-        ++first[std::min(a, b) + 1];
+        ++out.first[std::min(a, b) + 1];
     }
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-        first[v + 1] += first[v];
+    for (std::size_t v = 0; v + 1 < out.first.size(); ++v) {
+        out.first[v + 1] += out.first[v];
     }
-    std::vector<Side> bucketed(sides);
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t slot = 0; slot < sides; ++slot) {
+    out.sides.resize(count);
+    std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
         const auto [a, b] = ends(slot);
-        bucketed[next[std::min(a, b)]++] = {std::max(a, b), a < b, slot};
+        out.sides[next[std::min(a, b)]++] = {std::max(a, b), a < b, slot};
     }
-    std::vector<std::uint32_t> across(sides, kNone);
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-        for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
-            for (std::uint32_t j = i + 1; j < first[v + 1] && across[bucketed[i].slot] == kNone;
-                 ++j) {
-                if (bucketed[j].far_end == bucketed[i].far_end &&
-                    bucketed[j].upward != bucketed[i].upward && across[bucketed[j].slot] == kNone) {
-                    across[bucketed[i].slot] = bucketed[j].slot / 3;
-                    across[bucketed[j].slot] = bucketed[i].slot / 3;
-                }
+    return out;
+}
+
+/// Element `slot` is the triangle on the other side of that side; nothing when a side has no
+/// partner, with its triangle in `open_triangle`.
+std::optional<std::vector<std::uint32_t>> neighbours_across_sides(const TriMesh& mesh,
+                                                                  std::uint32_t& open_triangle) {
+    const SidesByVertex by_vertex = sides_by_vertex(mesh);
+    std::vector<std::uint32_t> across(by_vertex.sides.size(), kNone);
+    const auto partners = [&](const Side& a, const Side& b) {
+        return a.far_end == b.far_end && a.upward != b.upward && across[b.slot] == kNone;
+    };
+    for (std::size_t v = 0; v + 1 < by_vertex.first.size(); ++v) {
+        const auto end = by_vertex.sides.begin() + by_vertex.first[v + 1];
+        for (auto a = by_vertex.sides.begin() + by_vertex.first[v]; a != end; ++a) {
+            if (across[a->slot] != kNone) {
+                continue;
             }
-            if (across[bucketed[i].slot] == kNone) {
-                open_triangle = bucketed[i].slot / 3;
+            const auto b =
+                std::find_if(a + 1, end, [&](const Side& side) { return partners(*a, side); });
+            if (b == end) {
+                open_triangle = a->slot / 3;
                 return std::nullopt;
             }
+            across[a->slot] = b->slot / 3;
+            across[b->slot] = a->slot / 3;
         }
     }
     return across;

@@ -120,7 +120,7 @@ class Descent {
         });
     }
 
-    std::vector<SupportAreas> areas() const {
+    [[nodiscard]] std::vector<SupportAreas> areas() const {
         std::vector<Columns> columns(slices_.size());
         Columns now;
         for (std::size_t i = slices_.size(); i-- > 0 && !run_.cancelled();) {
@@ -162,7 +162,7 @@ class Descent {
     }
 
     /// Away from the part where there is room, close to it where there is none.
-    Paths beside_part(const Paths& columns, std::size_t i) const {
+    [[nodiscard]] Paths beside_part(const Paths& columns, std::size_t i) const {
         Paths out;
         for (const polygon::Island& island : polygon::islands(columns)) {
             const Paths loops = island.loops();
@@ -177,7 +177,7 @@ class Descent {
     }
 
     /// The attached columns without notches and narrow places, such that lines run well in them.
-    Paths smooth(const Paths& attached, std::size_t i) const {
+    [[nodiscard]] Paths smooth(const Paths& attached, std::size_t i) const {
         const Paths whole = polygon::simplified(
             polygon::closed(attached, kNotchMm, polygon::Join::Round), kSmoothMm);
         return polygon::opened(polygon::subtract(whole, clear_[i]), kNarrowMm,
@@ -186,7 +186,7 @@ class Descent {
 
     /// Where a layer's support ends within the next few layers, and as far around that it rests on
     /// lines.
-    Paths contact(std::size_t i) const {
+    [[nodiscard]] Paths contact(std::size_t i) const {
         Paths out;
         for (std::size_t k = 1; k <= kInterfaceLayers; ++k) {
             const std::size_t above = i + k + gap_;
