@@ -3,6 +3,7 @@
 
 #include "cam/verify/islands.h"
 #include "cam/verify/limits.h"
+#include "cam/verify/overhangs.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +16,7 @@ constexpr double kReachMm = 1.2;   ///< how far down a bead looks for what carri
 constexpr double kSampleMm = 0.3;  ///< between two looks along a bead
 constexpr int kMostSamples = 64;
 constexpr double kMarginMm = 1.0;
+constexpr int kBridgeRounds = 3;
 
 /// How a bead lies: height of material under it up to the nozzle.
 struct Lie {
@@ -37,6 +39,7 @@ class LevelExam {
 
     [[nodiscard]] double gap_at(double x, double y) const;
     void measure_lies();
+    [[nodiscard]] double usual_height(bool parts, double otherwise) const;
     void make_window();
     void draw_beads();
     void slice_parts();
@@ -44,6 +47,7 @@ class LevelExam {
     void check_outside();
     void check_fill();
     void check_support();
+    void check_overhangs(const Bitmap& carried, const Bitmap& previous);
     template <class Body>
     void rows_of(std::uint32_t k, const Body& body) const;
 
@@ -58,6 +62,8 @@ class LevelExam {
     LevelReport report_;
     std::vector<Lie> lies_;
     std::vector<Section> sections_;
+    double own_height_ =
+        0;  ///< of the thickest kind of beads: supports may keep heights of their own
     Window window_;
     Bitmap part_;  ///< undeclared material
     Bitmap all_;
@@ -82,9 +88,6 @@ double LevelExam::gap_at(double x, double y) const {
 
 void LevelExam::measure_lies() {
     lies_.resize(level_.last - level_.first);
-    double sum = 0;
-    double weight = 0;
-    std::vector<std::pair<double, double>> heights;
     for (std::uint32_t k = level_.first; k < level_.last; ++k) {
         const Bead& b = bead(k);
         Lie& lie = lies_[k - level_.first];
@@ -103,24 +106,35 @@ void LevelExam::measure_lies() {
             }
         }
         lie.height = touches > 0 ? touched / touches : 0;
-        if (b.role == Role::Part) {
-            report_.part_mm3 += b.volume_mm3;
-            if (touches > 0) {
-                heights.emplace_back(lie.height, lie.length);
-                weight += lie.length;
-            }
+        report_.part_mm3 += b.role == Role::Part ? b.volume_mm3 : 0;
+    }
+    report_.height_mm = usual_height(true, std::min(level_.step_part, kReachMm));
+    own_height_ = std::max(
+        level_.layer >= 0 ? report_.height_mm : 0,
+        usual_height(false, level_.layer >= 0 ? 0 : std::min(level_.step_other, kReachMm)));
+}
+
+/// The median by length over the beads of the parts, or over the others: a few beads over a seam or
+/// a support must not decide.
+double LevelExam::usual_height(bool parts, double otherwise) const {
+    double weight = 0;
+    std::vector<std::pair<double, double>> heights;
+    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+        const Lie& lie = lies_[k - level_.first];
+        if ((bead(k).role == Role::Part) == parts && lie.height > 0) {
+            heights.emplace_back(lie.height, lie.length);
+            weight += lie.length;
         }
     }
-    // The median by length: a few beads over a seam or a support must not decide.
     std::sort(heights.begin(), heights.end());
-    report_.height_mm = std::min(level_.step_part, kReachMm);
+    double sum = 0;
     for (const auto& [height, length] : heights) {
         sum += length;
         if (sum >= weight / 2) {
-            report_.height_mm = height;
-            break;
+            return height;
         }
     }
+    return otherwise;
 }
 
 template <class Body>
@@ -276,8 +290,7 @@ void LevelExam::check_fill() {
 }
 
 void LevelExam::check_support() {
-    const double contact =
-        report_.height_mm * (1 + limits::kContactLayers) + limits::kContactSlackMm;
+    const double contact = own_height_ * (1 + limits::kContactLayers) + limits::kContactSlackMm;
     const double touching = report_.height_mm + limits::kContactSlackMm;
     Bitmap carried(window_);
     Bitmap touched(window_);
@@ -299,8 +312,8 @@ void LevelExam::check_support() {
         air += static_cast<std::size_t>(std::popcount(part_.words()[w] & ~touched.words()[w]));
         carried.words()[w] &= all_.words()[w];
     }
+    Bitmap previous(window_);
     if (air > 0) {
-        Bitmap previous(window_);
         for (const Slicer& slicer : *scene_.slicers) {
             fill_section(slicer.at(level_.z - 1.5 * report_.height_mm), scene_.pixel_mm, previous);
         }
@@ -315,6 +328,7 @@ void LevelExam::check_support() {
     if (level_.z <= contact) {
         return;  // over the bed by no more than the gap that is allowed
     }
+    check_overhangs(carried, previous);
     Bitmap floating(window_);
     const std::vector<Island> islands = find_islands(all_, part_, carried, floating);
     for (const Island& island : islands) {
@@ -330,6 +344,48 @@ void LevelExam::check_support() {
         if (pixels > 3) {
             report_.island_line = bead(k).line;
             break;
+        }
+    }
+}
+
+/// Shelves that stick out over nothing, further than any slope or bridge would explain.
+void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
+    if (report_.air_mm2 < limits::kHangingMm2) {
+        return;
+    }
+    Bitmap hanging = part_;
+    for (std::size_t w = 0; w < hanging.words().size(); ++w) {
+        hanging.words()[w] &= ~carried.words()[w] & ~previous.words()[w];
+    }
+    Bitmap far = far_from(hanging, carried, limits::kHangingMm, scene_.pixel_mm);
+    if (mm2(far.count()) < limits::kHangingMm2) {
+        return;
+    }
+    // A bead may end on a bridge of the same layer: skin between two bridged walls.
+    const int reach = static_cast<int>(std::lround(limits::kAnchorMm / scene_.pixel_mm));
+    Bitmap held = carried;
+    held.unite(previous);  // over the part below, be it hollow: infill carries an end
+    Bitmap anchors = dilated(held, reach);
+    for (int round = 0; round < kBridgeRounds; ++round) {
+        const std::vector<char> bridges =
+            find_bridges(*scene_.beads, *scene_.levels, level_, anchors, scene_.pixel_mm);
+        Bitmap bridged(window_);
+        for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+            if (bridges[k - level_.first] != 0) {
+                rows_of(k, [&](int j, int i0, int i1) { bridged.fill(j, i0, i1); });
+            }
+        }
+        for (std::size_t w = 0; w < far.words().size(); ++w) {
+            far.words()[w] &= ~bridged.words()[w];
+        }
+        anchors.unite(bridged);
+    }
+    report_.hanging_mm2 = mm2(far.count());
+    for (std::uint32_t k = level_.first; k < level_.last && report_.hanging_line == 0; ++k) {
+        int pixels = 0;
+        rows_of(k, [&](int j, int i0, int i1) { pixels += far.count(j, i0, i1); });
+        if (pixels > 3) {
+            report_.hanging_line = bead(k).line;
         }
     }
 }

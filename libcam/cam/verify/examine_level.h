@@ -35,6 +35,8 @@ struct LevelReport {
     int islands = 0;
     long island_line = 0;
     double island_mm2 = 0;
+    double hanging_mm2 = 0;  ///< further than 3 mm from anything that carries, and no bridge
+    long hanging_line = 0;
     double air_mm2 = 0;       ///< beads over nothing, outside the section of the layer below
     double internal_mm2 = 0;  ///< beads over nothing, inside it: infill bridges
     double bead_mm2 = 0;

@@ -106,6 +106,15 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
         if (level.layer < 0) {
             continue;
         }
+        if (report.hanging_mm2 >= limits::kHangingMm2) {
+            figures.hanging_mm2 += report.hanging_mm2;
+            faults.add({"proof.unsupported", report.hanging_line, level.layer,
+                        decimal(report.hanging_mm2, 1) + " mm^2 of layer " +
+                            std::to_string(level.layer) + " hang further than " +
+                            decimal(limits::kHangingMm, 1) +
+                            " mm from anything that carries them, " +
+                            decimal(limits::kHangingMm2, 1) + " mm^2 are allowed"});
+        }
         ++figures.layers;
         ring += report.ring_mm2;
         uncovered += report.uncovered_mm2;

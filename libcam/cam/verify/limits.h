@@ -23,6 +23,9 @@ inline constexpr double kContactLayers = 2;  ///< free layers between a support 
 inline constexpr double kContactSlackMm = 0.06;
 inline constexpr double kIslandMm2 = 0.3;         ///< smaller specks of the part are no island
 inline constexpr double kSupportIslandMm2 = 1.5;  ///< nor are these of supports: a lost thread
+inline constexpr double kHangingMm = 3.0;         ///< free overhang of one layer
+inline constexpr double kHangingMm2 = 4.0;        ///< beyond that, one layer; peers 0
+inline constexpr double kAnchorMm = 1.0;  ///< ends of bridges lie that near to what carries them
 inline constexpr double kSolidCoverage =
     0.985;                                     ///< covered share of a section that counts as solid
 inline constexpr double kLeastSolidMm2 = 100;  ///< smaller sections say little about the flow

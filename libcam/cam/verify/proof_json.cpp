@@ -41,6 +41,7 @@ void for_each_figure(Figures& f, const Body& body) {
     body("solid_fill_ratio", f.solid_fill_ratio);
     body("solid_layers", f.solid_layers);
     body("floating_islands", f.floating_islands);
+    body("hanging_mm2", f.hanging_mm2);
     body("moves_below_printed", f.moves_below_printed);
     body("moves_outside_chamber", f.moves_outside_chamber);
     body("blob_mm3", f.blob_mm3);

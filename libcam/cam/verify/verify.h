@@ -49,6 +49,7 @@ struct Figures {
     double worst_layer_uncovered_percent = 0;
     double solid_fill_ratio = 0;  ///< V / (A h) over solid layers; 0 when there are none
     int floating_islands = 0;
+    double hanging_mm2 = 0;  ///< shelves over nothing that are no bridges, all layers
     int moves_below_printed = 0;
     int moves_outside_chamber = 0;
     double blob_mm3 = 0;      ///< extruded at a standstill, retractions made up for

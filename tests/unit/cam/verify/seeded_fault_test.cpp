@@ -158,6 +158,44 @@ TEST(SeededFault, AHangingPegIsAFloatingIsland) {
     EXPECT_EQ(proof.figures.floating_islands, 1);
 }
 
+TEST(SeededFault, AShelfOverNothingIsUnsupportedAndABridgeIsNot) {
+    // A shelf of 12 mm sticks out of the box; its loops are connected with it, so it is no island.
+    BoxPrint shelf;
+    shelf.after = [](BoxWriter& out, int layer) {
+        if (layer >= 10) {
+            for (int k = 0; k < 15; ++k) {
+                out.square({16, 0}, 6 - 0.4 * k - 0.2, 0.4, 0.2, 30);
+            }
+        }
+    };
+    cam::verify::PlacedPart part = box_part(shelf);
+    part.mesh = tests::joined(part.mesh, tests::box({10, -6, 2}, {22, 6, 4}));
+    const PrintedBox hangs = print_box(shelf);
+    const Proof bad = prove(hangs, {part});
+    expect_fault(bad, "proof.unsupported", hangs, 10);
+    EXPECT_EQ(bad.figures.floating_islands, 0);
+    EXPECT_EQ(bad.faults.size(), 1U) << told(bad);
+
+    // The same gap closed by straight beads from the box to a second one.
+    BoxPrint bridge;
+    bridge.after = [](BoxWriter& out, int layer) {
+        for (int k = 0; k < 10; ++k) {
+            out.square({26, 0}, 4 - 0.4 * k - 0.2, 0.4, 0.2, 30);
+        }
+        for (int k = 0; layer >= 10 && k < 20; ++k) {
+            out.travel({10, -3.8 + 0.4 * k});
+            out.bead({16, -3.8 + 0.4 * k}, 0.4, 0.2, 30);
+            out.bead({22, -3.8 + 0.4 * k}, 0.4, 0.2, 30);
+        }
+    };
+    cam::verify::PlacedPart table = box_part(bridge);
+    table.mesh = tests::joined(tests::joined(table.mesh, tests::box({22, -4, 0}, {30, 4, 4})),
+                               tests::box({10, -4, 2}, {22, 4, 4}));
+    const Proof good = prove(print_box(bridge), {table});
+    EXPECT_EQ(find(good, "proof.unsupported"), nullptr) << told(good);
+    EXPECT_EQ(good.figures.hanging_mm2, 0);
+}
+
 TEST(SeededFault, ExtrudingBeforeTheNozzleIsHotIsCold) {
     BoxPrint print;
     PrintedBox printed = print_box(print);
