@@ -178,10 +178,10 @@ class Descent {
 
     /// The attached columns without notches and narrow places, such that lines run well in them.
     [[nodiscard]] Paths smooth(const Paths& attached, std::size_t i) const {
-        const Paths whole = polygon::simplified(
-            polygon::closed(attached, kNotchMm, polygon::Join::Round), kSmoothMm);
-        return polygon::opened(polygon::subtract(whole, clear_[i]), kNarrowMm,
-                               polygon::Join::Round);
+        // Miters: arcs would make the outlines heavy, and lines need no round corners.
+        const Paths thick = polygon::simplified(polygon::offset(attached, kNotchMm), kSmoothMm);
+        const Paths whole = polygon::simplified(polygon::offset(thick, -kNotchMm), kSmoothMm);
+        return polygon::opened(polygon::subtract(whole, clear_[i]), kNarrowMm);
     }
 
     /// Where a layer's support ends within the next few layers, and as far around that it rests on
