@@ -17,13 +17,13 @@ constexpr int kRaysPerSample = kSkyDirections / (kSide * kSide);
 constexpr int kTile = 4;              // the pattern of sky directions repeats after so many pixels
 constexpr float kViewerDistance = 2;  // of the scene's radius
 constexpr float kLiftOff = 1e-3F;     // sky rays start so far above the surface, of the radius
-constexpr float kSkyReach = 0.30F;    // what is farther away takes no light, of the radius
+constexpr float kSkyReach = 0.20F;    // what is farther away takes no light, of the radius
 constexpr float kCreaseCosine = 0.75F;  // a drawn edge bends more than 41 degrees
 constexpr float kStep = 0.012F;         // a drawn step in depth, of the radius
 constexpr double kSilhouetteShade = 0.45;
 constexpr double kCreaseShade = 0.70;
-constexpr Rgb kCutFace{255, 236, 190};
-constexpr double kCutFaceTint = 0.60;
+constexpr Rgb kCutFace{255, 246, 222};
+constexpr double kCutFaceTint = 0.68;
 
 class Picture {
   public:
@@ -73,12 +73,11 @@ class Picture {
                     continue;
                 }
                 const Vector3f start = sky_origin(s, x, y, step);
-                const double turn = ((row % kTile) * kTile + column % kTile) /
-                                    double{kTile * kTile} / kSkyDirections;
+                const int slot = (row % kTile) * kTile + column % kTile;
                 for (int ray = 0; ray < kRaysPerSample; ++ray) {
                     const int direction = ray * kSide * kSide + part;
                     ++cast;
-                    open += scene_.blocked(start, sky_direction(s.flat_normal, direction, turn),
+                    open += scene_.blocked(start, sky_direction(s.flat_normal, direction, slot),
                                            kSkyReach)
                                 ? 0
                                 : 1;

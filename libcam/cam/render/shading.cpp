@@ -16,9 +16,11 @@ constexpr std::size_t kGreatestFan =
 constexpr double kLampRight = -0.45;
 constexpr double kLampUp = 0.65;
 constexpr double kLampToward = 0.62;
-constexpr double kLampLight = 0.50;
+constexpr double kLampLight = 0.52;
 constexpr double kHeadLight = 0.16;
-constexpr double kSkyLight = 0.40;
+constexpr double kSkyLight = 0.26;
+constexpr double kAmbientLight = 0.12;  // reaches every hollow
+constexpr double kShade = 0.35;         // of the lamps, taken where no sky is seen
 
 /// Triangles around each vertex: those of vertex v are list[first[v]] ... list[first[v + 1] - 1],
 /// ascending.
@@ -46,6 +48,14 @@ Fans fans_of(const decomp::mesh::TriMesh& mesh) {
         }
     }
     return fans;
+}
+
+/// The four bits of 0 ... 15 in reverse order, as a fraction of 16.
+double reversed(int number) {
+    const auto bits = static_cast<unsigned>(number);
+    const unsigned turned =
+        ((bits & 1U) << 3U) | ((bits & 2U) << 1U) | ((bits & 4U) >> 1U) | ((bits & 8U) >> 3U);
+    return static_cast<double>(turned) / kSkyDirections;
 }
 
 }  // namespace
@@ -89,18 +99,16 @@ double light_on(const Eigen::Vector3f& normal, const Camera& camera, double open
                                  lamp_of_camera.z() * camera.toward_viewer;
     const double from_lamp = std::max(0.0, n.dot(lamp));
     const double from_head = std::max(0.0, n.dot(camera.toward_viewer));
-    const double half_open = 0.5 + 0.5 * open;
-    return kLampLight * from_lamp * half_open + kHeadLight * from_head * half_open +
-           kSkyLight * open;
+    const double reached = 1 - kShade * (1 - open);
+    return (kLampLight * from_lamp + kHeadLight * from_head) * reached + kSkyLight * open +
+           kAmbientLight;
 }
 
-Eigen::Vector3f sky_direction(const Eigen::Vector3f& normal, int index, double turn) {
-    // A Hammersley set: equal steps along one side of the square, bits reversed along the other.
-    const auto bits = static_cast<unsigned>(index);
-    const unsigned reversed =
-        ((bits & 1U) << 3U) | ((bits & 2U) << 1U) | ((bits & 4U) >> 1U) | ((bits & 8U) >> 3U);
-    const double along = (index + 0.5) / kSkyDirections;
-    const double circle = static_cast<double>(reversed) / kSkyDirections + turn;
+Eigen::Vector3f sky_direction(const Eigen::Vector3f& normal, int index, int slot) {
+    // Hammersley: equal steps along one side of the square, bits reversed along the other; each of
+    // the pixels of a tile has its own place within every step.
+    const double along = (index + (slot + 0.5) / kSkyDirections) / kSkyDirections;
+    const double circle = reversed(index) + reversed(slot) / kSkyDirections;
     const double sine = std::sqrt(along);
     const double angle = 2 * std::numbers::pi * circle;
     const Eigen::Vector3d n = normal.cast<double>();

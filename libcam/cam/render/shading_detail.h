@@ -29,9 +29,9 @@ struct Sample {
 /// the camera, `open` of the sky being visible.
 [[nodiscard]] double light_on(const Eigen::Vector3f& normal, const Camera& camera, double open);
 
-/// Direction number `index` of 16 over the hemisphere around the normal, cosine-weighted, turned by
-/// `turn` of a full circle.
-[[nodiscard]] Eigen::Vector3f sky_direction(const Eigen::Vector3f& normal, int index, double turn);
+/// Direction number `index` of 16 over the hemisphere around the normal, cosine-weighted; sixteen
+/// slots have sixteen such sets, which together cover it evenly.
+[[nodiscard]] Eigen::Vector3f sky_direction(const Eigen::Vector3f& normal, int index, int slot);
 
 inline constexpr int kSkyDirections = 16;
 
