@@ -14,9 +14,4 @@ find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
-# Debian's lib3MF.pc names -lzip, whose development package the shared library does not need.
-find_path(LIB3MF_INCLUDE_DIR Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf REQUIRED)
-find_library(LIB3MF_LIBRARY 3MF REQUIRED)
-add_library(lib3mf::lib3mf UNKNOWN IMPORTED)
-set_target_properties(lib3mf::lib3mf PROPERTIES IMPORTED_LOCATION "${LIB3MF_LIBRARY}"
-                      INTERFACE_INCLUDE_DIRECTORIES "${LIB3MF_INCLUDE_DIR}")
+find_package(lib3mf REQUIRED)

@@ -19,11 +19,9 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/hewConfig.cmake.in" "${
                               INSTALL_DESTINATION "${HEW_PACKAGE_DIR}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/hewConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/hewConfig.cmake" "${PROJECT_BINARY_DIR}/hewConfigVersion.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/Findlib3mf.cmake"
         DESTINATION "${HEW_PACKAGE_DIR}")
 
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/machine_profiles" DESTINATION "${CMAKE_INSTALL_DATADIR}/hew"
         FILES_MATCHING PATTERN "*.toml")
-if(TARGET hew)
-  install(TARGETS hew RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-endif()
