@@ -70,7 +70,7 @@ bool on_hull(const decomp::mesh::TriMesh& mesh, const Eigen::Vector3d& normal,
 
 }  // namespace
 
-std::vector<Stand> stands(const decomp::part::Part& part, decomp::part::Fidelity fidelity) {
+std::vector<Stand> stands(const decomp::part::Part& part, Flats flats) {
     std::vector<Stand> out;
     const auto add = [&](const Stand& stand) {
         const bool known = std::any_of(out.begin(), out.end(), [&](const Stand& other) {
@@ -88,11 +88,12 @@ std::vector<Stand> stands(const decomp::part::Part& part, decomp::part::Fidelity
             add({normal, face.plane, true, true});
         }
     }
-    if (out.empty() || fidelity == decomp::part::Fidelity::Exact) {
-        for (const auto& flat : decomp::mesh::large_flats(part.mesh, {.min_share = kLeastShare})) {
-            if (flat.on_hull) {
-                add({flat.normal, -1, false, true});
-            }
+    if (flats == Flats::Left && !out.empty()) {
+        return out;
+    }
+    for (const auto& flat : decomp::mesh::large_flats(part.mesh, {.min_share = kLeastShare})) {
+        if (flat.on_hull) {
+            add({flat.normal, -1, false, true});
         }
     }
     if (out.empty() || faces.empty()) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "decomp/part/judge.h"
 #include "decomp/part/part.h"
 
 #include <Eigen/Core>
@@ -19,9 +18,12 @@ struct Stand {
     bool on_flat = false;
 };
 
+/// Which stands to look for. Flats of the input cost as much to find as all else.
+enum class Flats { Sought, Left };
+
 /// Cut faces on the hull, then large flats of the input on it; the ends of the model axes when
-/// there is neither, and for an uncut part in any case.
-[[nodiscard]] std::vector<Stand> stands(const decomp::part::Part& part,
-                                        decomp::part::Fidelity fidelity);
+/// there is neither, and for an uncut part in any case. With Flats::Left only the cut faces, if
+/// any.
+[[nodiscard]] std::vector<Stand> stands(const decomp::part::Part& part, Flats flats);
 
 }  // namespace cam::orient

@@ -262,6 +262,22 @@ std::vector<Plane> dividing_planes(const BuildChoice& choice) {
     return planes;
 }
 
+std::vector<BuildChoice> ranked(const Part& part, const profile::FdmMachine& machine, Flats flats) {
+    std::vector<BuildChoice> choices;
+    if (part.mesh.triangles.empty()) {
+        return choices;
+    }
+    const Surface surface = surface_of(part.mesh);
+    for (const Stand& stand : stands(part, flats)) {
+        choices.push_back(build_on(surface, stand, machine));
+    }
+    const double same_support = kSameSupport * surface.total_area;
+    std::stable_sort(
+        choices.begin(), choices.end(),
+        [&](const BuildChoice& a, const BuildChoice& b) { return better(a, b, same_support); });
+    return choices;
+}
+
 }  // namespace
 
 double border_mm(const profile::FdmMachine& machine) {
@@ -283,21 +299,8 @@ Eigen::Vector3d usable_mm(const profile::FdmMachine& machine) {
     return usable;
 }
 
-std::vector<BuildChoice> rank_builds(const Part& part, const profile::FdmMachine& machine,
-                                     Fidelity fidelity) {
-    std::vector<BuildChoice> choices;
-    if (part.mesh.triangles.empty()) {
-        return choices;
-    }
-    const Surface surface = surface_of(part.mesh);
-    for (const Stand& stand : stands(part, fidelity)) {
-        choices.push_back(build_on(surface, stand, machine));
-    }
-    const double same_support = kSameSupport * surface.total_area;
-    std::stable_sort(
-        choices.begin(), choices.end(),
-        [&](const BuildChoice& a, const BuildChoice& b) { return better(a, b, same_support); });
-    return choices;
+std::vector<BuildChoice> rank_builds(const Part& part, const profile::FdmMachine& machine) {
+    return ranked(part, machine, Flats::Sought);
 }
 
 TriMesh placed(const Part& part, const Pose<PartBedFrame, ModelFrame>& pose) {
@@ -330,7 +333,11 @@ TriMesh placed(const Part& part, const BuildChoice& choice) { return placed(part
 decomp::part::Judge fdm_judge(const profile::FdmSetup& setup) {
     return [machine = setup.machine](const Part& part, Fidelity fidelity) {
         Verdict verdict;
-        const std::vector<BuildChoice> choices = rank_builds(part, machine, fidelity);
+        const Flats flats = fidelity == Fidelity::Estimate ? Flats::Left : Flats::Sought;
+        std::vector<BuildChoice> choices = ranked(part, machine, flats);
+        if (flats == Flats::Left && !choices.empty() && !choices.front().fits()) {
+            choices = ranked(part, machine, Flats::Sought);
+        }
         if (choices.empty()) {
             return verdict;
         }

@@ -44,9 +44,8 @@ struct BuildChoice {
 /// axes, then the least support; ties by height, base area and order of discovery. Each is turned
 /// about Z into the smallest rectangle that fits; an unturned one that is nearly as small is
 /// preferred. Never empty for a part with triangles. O(n) per pose.
-[[nodiscard]] std::vector<BuildChoice> rank_builds(
-    const decomp::part::Part& part, const profile::FdmMachine& machine,
-    decomp::part::Fidelity fidelity = decomp::part::Fidelity::Exact);
+[[nodiscard]] std::vector<BuildChoice> rank_builds(const decomp::part::Part& part,
+                                                   const profile::FdmMachine& machine);
 
 /// The part as it is printed: facets that lie on the plate within 0.02 mm are exactly at z = 0, so
 /// min z = 0. Whoever makes the printed mesh makes it here.
@@ -57,7 +56,8 @@ struct BuildChoice {
                                            const BuildChoice& choice);
 
 /// The judge of one FDM job: the first of rank_builds(). cuts_that_help divide the violated extents
-/// evenly, worst first. An Estimate looks at the cut faces only, when there are any.
+/// evenly, worst first. An Estimate is content with a cut face that fits, and does not look for
+/// other flats then.
 [[nodiscard]] decomp::part::Judge fdm_judge(const profile::FdmSetup& setup);
 
 }  // namespace cam::orient

@@ -149,14 +149,28 @@ Flat heaviest_level(const TriMesh& mesh, const Facets& facets, const Eigen::Vect
     return best;
 }
 
-double outermost(const TriMesh& mesh, const Eigen::Vector3d& normal) {
+double outermost(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal) {
     double height = -std::numeric_limits<double>::infinity();
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t v : t) {
-            height = std::max(height, normal.dot(mesh.points[v]));
-        }
+    for (const Eigen::Vector3d& point : points) {
+        height = std::max(height, normal.dot(point));
     }
     return height;
+}
+
+/// The points that triangles use, once each.
+std::vector<Eigen::Vector3d> used_points(const TriMesh& mesh) {
+    std::vector<bool> used(mesh.points.size(), false);
+    std::vector<Eigen::Vector3d> out;
+    out.reserve(mesh.points.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) {
+            if (!used[v]) {
+                used[v] = true;
+                out.push_back(mesh.points[v]);
+            }
+        }
+    }
+    return out;
 }
 
 /// The area of the members within `planar` of the outermost height.
@@ -189,10 +203,11 @@ std::vector<Flat> large_flats(const TriMesh& mesh, const FlatOptions& options) {
             flats.push_back(flat);
         }
     };
+    const std::vector<Eigen::Vector3d> points = used_points(mesh);
     std::vector<std::uint32_t> members;
     for (const Eigen::Vector3d& peak : peak_normals(facets, options.min_share)) {
         const Eigen::Vector3d normal = narrowed(facets, peak, options.normal_angle, members);
-        const double top = outermost(mesh, normal);
+        const double top = outermost(points, normal);
         Flat outer;
         outer.normal = normal;
         outer.offset_mm = top;

@@ -16,9 +16,9 @@ namespace decomp::pipeline {
 /// Every budget is counted, never timed, so that results do not depend on the speed of a machine.
 struct DecomposeOptions {
     int max_parts = 200;         ///< more than these is an error
-    int proxy_triangles = 8000;  ///< planes are searched on a simplified surface of this size
+    int proxy_triangles = 5000;  ///< planes are searched on a simplified surface of this size
     int offsets = 15;   ///< evenly spaced planes tried along each direction, besides the events
-    int lookahead = 3;  ///< best first cuts that are followed to the end
+    int lookahead = 4;  ///< best first cuts that are followed to the end
     double thin_share =
         0.015;  ///< of the diagonal: volume / interface below it is a tongue, taken only in need
     bool merge = true;  ///< unite neighbours afterwards where the judge allows

@@ -33,6 +33,7 @@ constexpr double kExtraOutline = 0.1;   // per piece beyond two: more joints to 
 constexpr double kSharedBonus = 0.1;    // a plane that cuts a neighbour as well
 constexpr double kSmallShare = 0.1;     // of the volume of the whole: parts below are shards ...
 constexpr double kShardPenalty = 0.45;  // ... unless they hang on a neck
+constexpr double kFeatherWeight = 1.2;  // share of the rim that ends in a feather edge
 constexpr double kTopples = 0.5;        // a part that does not stand by itself
 constexpr double kInflation = 1.002;    // stand-ins are judged this much larger than they are
 constexpr double kTie = 1e-9;
@@ -40,7 +41,8 @@ constexpr int kMaxDepth = 10;
 constexpr int kMaxNodes =
     160;  // parts looked at in one search; what is beyond is estimated, and planned later
 constexpr std::int32_t kFirstTrialPlane = 1 << 28;  // never the index of a real plane
-constexpr std::size_t kAlike = 2;  // candidates of one direction followed to the end
+constexpr double kFamily =
+    0.9;  // cosine of about 25 degrees: directions closer than this are of one family
 
 /// What is the same for the whole search.
 struct Search {
@@ -93,6 +95,14 @@ double shape_penalty(const sections::TrialPiece& piece, const Search& search) {
     return penalty;
 }
 
+/// 0 where the volume is shared so that all parts to come may be of equal size, 1 halfway between
+/// such shares or towards the ends.
+double unevenness(double share, double parts) {
+    const double count = std::max(2.0, std::floor(parts));
+    const double nearest = std::clamp(std::round(share * count), 1.0, count - 1);
+    return std::min(1.0, 2 * std::abs(share * count - nearest));
+}
+
 std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, double needed,
                            int depth, const Search& search) {
     Trial trial;
@@ -118,6 +128,7 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
         trial.estimate += pieces_needed;
         support += verdict.ok() ? verdict.support_area_mm2 : 0;
         trial.penalty += shape_penalty(piece, search);
+        trial.penalty += kFeatherWeight * piece.feather / 2;
         trial.penalty += verdict.ok() && !verdict.stable ? kTopples : 0;
         progress = progress && (verdict.ok() || piece.volume_mm3 < 0.9 * volume ||
                                 pieces_needed < needed - 0.05);
@@ -125,7 +136,7 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
     if (!progress || volume <= 0) {
         return std::nullopt;
     }
-    const double imbalance = std::abs(2 * above - volume) / volume;
+    const double imbalance = unevenness(above / volume, trial.estimate);
     trial.penalty += kAreaWeight * interface / std::pow(volume, 2.0 / 3.0);
     trial.penalty += kSupportWeight * support / mesh::area_mm2(part.mesh);
     trial.penalty += candidate.shared ? 0 : kBalanceWeight * imbalance * (1 - candidate.event);
@@ -168,16 +179,23 @@ std::vector<Trial> all_tried(const Node& node, const Search& search) {
     return trials;
 }
 
-/// The most promising trials, at most kAlike of one direction.
+/// The most promising trials: first the best of each family of directions, then the next best.
 std::vector<Trial> most_promising(std::vector<Trial> trials, std::size_t count) {
     std::vector<Trial> out;
+    std::vector<Trial> relatives;
     for (Trial& trial : trials) {
-        const auto alike = std::count_if(out.begin(), out.end(), [&](const Trial& other) {
-            return other.candidate.direction == trial.candidate.direction;
+        const bool related = std::any_of(out.begin(), out.end(), [&](const Trial& other) {
+            return std::abs(other.candidate.plane.normal.dot(trial.candidate.plane.normal)) >
+                   kFamily;
         });
-        if (out.size() < count && static_cast<std::size_t>(alike) < kAlike) {
+        if (related) {
+            relatives.push_back(std::move(trial));
+        } else if (out.size() < count) {
             out.push_back(std::move(trial));
         }
+    }
+    for (std::size_t i = 0; i < relatives.size() && out.size() < count; ++i) {
+        out.push_back(std::move(relatives[i]));
     }
     return out;
 }
@@ -227,7 +245,9 @@ std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search&
     if (node.depth >= kMaxDepth || budget < 1 || search.run.cancelled()) {
         return nullptr;
     }
-    const auto width = static_cast<std::size_t>(std::max(1, search.options.lookahead - node.depth));
+    const auto width = static_cast<std::size_t>(node.depth == 0   ? search.options.lookahead
+                                                : node.depth == 1 ? 2
+                                                                  : 1);
     std::shared_ptr<PlannedCut> best;
     const std::vector<Trial> trials = most_promising(all_tried(node, search), width);
     for (const Trial& trial : trials) {

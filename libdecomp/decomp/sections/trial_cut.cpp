@@ -17,6 +17,7 @@ namespace decomp::sections {
 
 namespace {
 
+constexpr double kSquareEnough = 0.5;  // |sine| of the angle off square: 30 degrees
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// Union-find with the smallest index as root.
@@ -53,7 +54,9 @@ struct CutEdge {
 struct Loop {
     std::vector<std::uint32_t> cuts;  // in order, material on the left seen from above
     double area = 0;                  // signed
-    std::uint32_t below = kNone;      // a vertex of the surface on either side
+    double length = 0;
+    double feather = 0;           // length weighted by how flat the surface leaves the plane
+    std::uint32_t below = kNone;  // a vertex of the surface on either side
     std::uint32_t above = kNone;
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     Eigen::Vector2d sample =
@@ -142,9 +145,19 @@ class TrialCut {
         return {basis_[0].dot(p), basis_[1].dot(p)};
     }
 
+    /// 0 where a facet meets the plane squarely, 1 where it lies in it.
+    [[nodiscard]] double flatness_of(std::size_t triangle) const {
+        const Eigen::Vector3d normal = mesh::double_area_normal(mesh_, triangle);
+        const double length = normal.norm();
+        const double tangency = length > 0 ? std::abs(normal.dot(direction_)) / length : 0;
+        const double excess = std::max(0.0, (tangency - kSquareEnough) / (1 - kSquareEnough));
+        return excess * excess;
+    }
+
     void trace_loops() {
         std::vector<std::uint32_t> next(cut_edges_.size(), kNone);
         std::vector<bool> on_input(cut_edges_.size(), false);
+        std::vector<double> flatness(cut_edges_.size(), 0.0);
         for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
             const mesh::Triangle& t = mesh_.triangles[i];
             std::uint32_t from = kNone;
@@ -159,6 +172,7 @@ class TrialCut {
             if (from != kNone && to != kNone) {
                 next[from] = to;
                 on_input[from] = !part_.sources[i].is_cut();
+                flatness[from] = flatness_of(i);
             }
         }
         std::vector<bool> seen(cut_edges_.size(), false);
@@ -169,13 +183,14 @@ class TrialCut {
                 loop.cuts.push_back(cut);
             }
             if (!loop.cuts.empty()) {
-                measure_loop(loop, on_input);
+                measure_loop(loop, on_input, flatness);
                 loops_.push_back(std::move(loop));
             }
         }
     }
 
-    void measure_loop(Loop& loop, const std::vector<bool>& on_input) {
+    void measure_loop(Loop& loop, const std::vector<bool>& on_input,
+                      const std::vector<double>& flatness) {
         loop.below = cut_edges_[loop.cuts.front()].below;
         loop.above = cut_edges_[loop.cuts.front()].above;
         const Eigen::Vector2d origin = flat(points_[loop.cuts.front()]);
@@ -185,6 +200,8 @@ class TrialCut {
             const std::uint32_t there = loop.cuts[(i + 1) % loop.cuts.size()];
             const Eigen::Vector2d a = flat(points_[here]) - origin;
             const Eigen::Vector2d b = flat(points_[there]) - origin;
+            loop.length += (b - a).norm();
+            loop.feather += (b - a).norm() * flatness[here];
             loop.area += (a.x() * b.y() - a.y() * b.x()) / 2;
             loop.centre += points_[here] / static_cast<double>(loop.cuts.size());
             if (!sampled && (on_input[here] || i + 1 == loop.cuts.size())) {
@@ -272,6 +289,7 @@ class TrialCut {
     struct Builder {
         TrialPiece piece;
         double six_volumes = 0;
+        double rim = 0;
     };
 
     std::uint32_t point_in(Builder& builder, std::size_t global, const Eigen::Vector3d& point) {
@@ -360,6 +378,8 @@ class TrialCut {
             part.sources.push_back({plane_index_, above ? 0 : 1});
         }
         builder.piece.interface_mm2 += loop.area;
+        builder.rim += loop.length;
+        builder.piece.feather += loop.feather;
     }
 
     std::vector<TrialPiece> collect() {
@@ -380,6 +400,7 @@ class TrialCut {
             piece.volume_mm3 = builder.six_volumes / 6;
             piece.bridge_mm = piece.interface_mm2 > 0 ? piece.volume_mm3 / piece.interface_mm2
                                                       : std::numeric_limits<double>::infinity();
+            piece.feather = builder.rim > 0 ? piece.feather / builder.rim : 0;
             out.push_back(std::move(piece));
         }
         return out;

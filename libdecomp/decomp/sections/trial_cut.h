@@ -15,6 +15,9 @@ struct TrialPiece {
     double volume_mm3 = 0;
     double interface_mm2 = 0;  ///< area of its new cut faces
     double bridge_mm = 0;      ///< volume / interface_mm2: thin tongues have little
+    double feather =
+        0;  ///< 0..1: share of the rim of its cut faces where the surface leaves at a flat angle,
+            ///< as feather edges do (0 below 30 degrees off square, 1 where it is tangent)
     part::Part part;  ///< caps are fans about the centre of each outline: right area, normal and
                       ///< extent only
 };

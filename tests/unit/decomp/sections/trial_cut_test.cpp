@@ -77,4 +77,10 @@ TEST(TrialCut, APieceCanBeCutAgain) {
     EXPECT_NEAR(total_volume(second), first[0].volume_mm3, 1e-6 * first[0].volume_mm3);
 }
 
+TEST(TrialCut, ACapThatEndsInAFeatherEdgeIsToldFromASquareCut) {
+    const Part ball = whole(tests::sphere(20, 64, 41));
+    EXPECT_LT(trial_cut(ball, {{0, 0, 1}, 0.1}, 0)[0].feather, 1e-6);
+    EXPECT_GT(trial_cut(ball, {{0, 0, 1}, 19.5}, 0)[1].feather, 0.8);
+}
+
 }  // namespace
