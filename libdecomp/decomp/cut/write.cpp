@@ -2,6 +2,7 @@
 #include "decomp/base/assert.h"
 #include "decomp/base/parallel.h"
 #include "decomp/cut/cells.h"
+#include "decomp/cut/pinch.h"
 #include "decomp/cut/planar.h"
 #include "decomp/cut/shells.h"
 #include "decomp/cut/written.h"
@@ -24,6 +25,28 @@ constexpr double kNearPlane = 1e-3;
 
 /// Triangles of all faces, made once, so that both regions at a cap write the same ones.
 using FaceTriangles = std::vector<std::vector<VertexTriangle>>;
+
+/// The cells, or a copy with pinched edges bisected where there are any.
+class Writable {
+  public:
+    explicit Writable(const Cells& cells) : cells_(&cells) {
+        const std::vector<std::int32_t> pinched = pinched_edges(cells);
+        if (!pinched.empty()) {
+            opened_ = cells;
+            bisect(*opened_, pinched);
+            cells_ = &*opened_;
+        }
+    }
+
+    Writable(const Writable&) = delete;
+    Writable& operator=(const Writable&) = delete;
+
+    [[nodiscard]] const Cells& cells() const { return *cells_; }
+
+  private:
+    const Cells* cells_;
+    std::optional<Cells> opened_;
+};
 
 /// A triangle of a region, outward, with the face it belongs to.
 struct Facet {
@@ -353,15 +376,18 @@ Status check_order(const Cells& cells, const std::vector<std::int32_t>& order) {
 }  // namespace
 
 part::Part Complex::region(std::int32_t region) const {
+    const Writable writable(*state_);
+    const Cells& cells = writable.cells();
     const Result<FaceTriangles> triangles =
-        triangulate(*state_, Run{}, [&](const Face& face) { return face.bounds(region); });
+        triangulate(cells, Run{}, [&](const Face& face) { return face.bounds(region); });
     DECOMP_ASSERT(triangles.has_value());
-    return written(*state_, region, *triangles);
+    return written(cells, region, *triangles);
 }
 
 Result<part::Assembly> Complex::assemble(const std::vector<std::int32_t>& order,
                                          const Run& run) const {
-    const Cells& cells = *state_;
+    const Writable writable(*state_);
+    const Cells& cells = writable.cells();
     if (Status sound = check_order(cells, order); !sound) {
         return fail(sound.error());
     }

@@ -110,3 +110,64 @@ TEST_P(CoplanarCuts, OfRandomPolycubesPartitionExactly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CoplanarCuts, testing::Range<std::uint64_t>(1, 41));
+
+class ThroughVertices : public testing::TestWithParam<std::uint64_t> {};
+
+namespace {
+
+/// Points on a lattice of whole numbers, so that planes through three of them are exact.
+TriMesh on_lattice(TriMesh mesh, double scale) {
+    for (auto& p : mesh.points) {
+        p = (p * scale).array().round();
+    }
+    return mesh;
+}
+
+Plane through_three_points(Rng& rng, const TriMesh& mesh) {
+    while (true) {
+        const Eigen::Vector3d& a = mesh.points[rng.below(mesh.points.size())];
+        const Eigen::Vector3d& b = mesh.points[rng.below(mesh.points.size())];
+        const Eigen::Vector3d& c = mesh.points[rng.below(mesh.points.size())];
+        const Eigen::Vector3d normal = (b - a).cross(c - a);
+        if (!normal.isZero(0)) {
+            return {normal, normal.dot(a)};
+        }
+    }
+}
+
+/// Cuts by planes through three points each; whatever touches whatever, the topology must hold.
+void cut_through_vertices(const TriMesh& mesh, Rng& rng) {
+    Complex complex = tests::complex_of(mesh);
+    const mpq_class whole = exact_sum(complex);
+    for (int i = 0; i < 5; ++i) {
+        tests::split_all(complex, through_three_points(rng, mesh));
+    }
+    EXPECT_TRUE(complex.volumes_sum_exactly());
+    EXPECT_EQ(exact_sum(complex), whole);
+    for (const std::int32_t region : tests::all_regions(complex)) {
+        EXPECT_TRUE(decomp::mesh::check_topology(complex.region(region).mesh).manifold());
+        EXPECT_GT(mpq_class(complex.exact_volume_mm3(region)), 0);
+    }
+    const auto assembly = complex.assemble(tests::all_regions(complex), decomp::Run{});
+    EXPECT_TRUE(assembly || assembly.error().code == "cut.rounding_intersects")
+        << assembly.error().text();
+}
+
+}  // namespace
+
+TEST_P(ThroughVertices, ExactlyOnTheLattice) {
+    Rng rng(GetParam());
+    cut_through_vertices(on_lattice(tests::torus(10, 4, 10, 8), 16), rng);
+    cut_through_vertices(on_lattice(tests::sphere(10, 10, 7), 16), rng);
+    cut_through_vertices(tests::joined(tests::box({-5, -5, -5}, {5, 5, 5}),
+                                       tests::flipped(tests::box({-2, -3, -1}, {3, 1, 4}))),
+                         rng);
+}
+
+TEST_P(ThroughVertices, AHairBesideThem) {
+    Rng rng(GetParam());
+    cut_through_vertices(tests::torus(10, 4, 10, 8), rng);
+    cut_through_vertices(tests::sphere(10, 10, 7), rng);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ThroughVertices, testing::Range<std::uint64_t>(1, 31));

@@ -83,6 +83,23 @@ TEST(Pinch, PitDownToThePlaneIsSplitByUmbrella) {
     expect_sound(further, mesh);
 }
 
+TEST(Pinch, VoidThatTouchesTheCutAlongAnEdgeIsOpened) {
+    // The lower half touches itself along an edge of the void that lies inside the cap.
+    const auto mesh = tests::joined(tests::box({0, 0, 0}, {6, 6, 6}),
+                                    tests::flipped(tests::box({2, 2, 2}, {3, 4, 3})));
+    Complex complex = complex_of(mesh);
+    ASSERT_EQ(complex.split(0, {{1, 0, 1}, 6})->size(), 2U);
+    const auto assembly = expect_sound(complex, mesh);
+    ASSERT_EQ(assembly.parts.size(), 2U);
+    const auto middles = [&](const auto& part) {
+        return std::count(part.mesh.points.begin(), part.mesh.points.end(),
+                          Eigen::Vector3d(3, 3, 3));
+    };
+    EXPECT_EQ(middles(assembly.parts[0]), 2);
+    EXPECT_EQ(middles(assembly.parts[1]), 1);
+    EXPECT_EQ(complex.planes().size(), 1U);
+}
+
 TEST(Pinch, TwoBodiesThatTouchAlongAnEdgeAreTwoRegions) {
     // Two boxes with the common edge x = 1, y = 1: four triangles at each of its pieces.
     const auto mesh =
