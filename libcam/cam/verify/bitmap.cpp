@@ -2,25 +2,51 @@
 #include "cam/verify/bitmap.h"
 
 #include <algorithm>
+#include <array>
 
 namespace cam::verify {
 namespace {
 
-/// target |= source spread by `reach` pixels to both sides.
-void spread(const std::uint64_t* source, std::uint64_t* target, int words, int reach) {
+/// One row spread by a pixel to both sides.
+void spread(const std::uint64_t* source, std::uint64_t* target, int words) {
+    std::uint64_t before = 0;
     for (int w = 0; w < words; ++w) {
         const std::uint64_t here = source[w];
-        const std::uint64_t before = w > 0 ? source[w - 1] : 0;
         const std::uint64_t after = w + 1 < words ? source[w + 1] : 0;
-        std::uint64_t sum = here;
-        if ((here | before | after) != 0) {
-            for (int s = 1; s <= reach; ++s) {
-                const auto shift = static_cast<unsigned>(s);
-                sum |= here << shift | before >> (64U - shift) | here >> shift |
-                       after << (64U - shift);
-            }
+        target[w] = here | here << 1U | here >> 1U | before >> 63U | after << 63U;
+        before = here;
+    }
+}
+
+/// Grows by the four neighbours, or by all eight.
+void grow(Bitmap& bitmap, bool corners, std::vector<std::uint64_t>& buffer) {
+    const int words = bitmap.window().words;
+    const int rows = bitmap.window().rows;
+    const auto width = static_cast<std::size_t>(words);
+    // Three rows as they were: the one below, this one, the one above; plain and spread.
+    buffer.assign(6 * width, 0);
+    std::array<std::uint64_t*, 3> plain = {&buffer[0], &buffer[width], &buffer[2 * width]};
+    std::array<std::uint64_t*, 3> wide = {&buffer[3 * width], &buffer[4 * width],
+                                          &buffer[5 * width]};
+    const auto load = [&](int row, std::size_t slot) {
+        if (row < rows) {
+            std::copy_n(bitmap.row_words(row), words, plain[slot]);
+            spread(plain[slot], wide[slot], words);
+        } else {
+            std::fill_n(plain[slot], words, std::uint64_t{0});
+            std::fill_n(wide[slot], words, std::uint64_t{0});
         }
-        target[w] |= sum;
+    };
+    load(0, 1);
+    for (int row = 0; row < rows; ++row) {
+        load(row + 1, 2);
+        const auto& sides = corners ? wide : plain;
+        std::uint64_t* target = bitmap.row_words(row);
+        for (int w = 0; w < words; ++w) {
+            target[w] = wide[1][w] | sides[0][w] | sides[2][w];
+        }
+        std::rotate(plain.begin(), plain.begin() + 1, plain.end());
+        std::rotate(wide.begin(), wide.begin() + 1, wide.end());
     }
 }
 
@@ -43,21 +69,12 @@ void Bitmap::unite(const Bitmap& other) {
     }
 }
 
-Bitmap dilated(const Bitmap& bitmap, int radius) {
-    Bitmap out(bitmap.window());
-    const Window& window = bitmap.window();
-    for (int row = 0; row < window.rows; ++row) {
-        for (int dy = -radius; dy <= radius; ++dy) {
-            const int target = row + dy;
-            if (target < 0 || target >= window.rows) {
-                continue;
-            }
-            const int reach =
-                static_cast<int>(std::sqrt(static_cast<double>(radius * radius - dy * dy)));
-            spread(bitmap.row_words(row), out.row_words(target), window.words, reach);
-        }
+Bitmap dilated(Bitmap bitmap, int radius) {
+    std::vector<std::uint64_t> buffer;
+    for (int step = 1; step <= radius; ++step) {
+        grow(bitmap, step % 3 == 0, buffer);
     }
-    return out;
+    return bitmap;
 }
 
 }  // namespace cam::verify

@@ -119,8 +119,9 @@ class Bitmap {
     std::vector<std::uint64_t> bits_;
 };
 
-/// The pixels within `radius` (in pixels) of a set pixel: a disc on the grid. O(words * radius).
-[[nodiscard]] Bitmap dilated(const Bitmap& bitmap, int radius);
+/// The pixels within `radius` (in pixels) of a set pixel, by steps of one pixel: a disc up to
+/// radius 2, an octagon within 6 % of it beyond. O(words * radius).
+[[nodiscard]] Bitmap dilated(Bitmap bitmap, int radius);
 
 /// Calls body(row, i0, i1) for the pixel centres within `radius` of the segment a-b; all in mm,
 /// pixels of `pixel` mm. Rows outside [lowest, highest] are left out.

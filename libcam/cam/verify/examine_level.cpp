@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace cam::verify {
 namespace {
@@ -235,7 +236,7 @@ void LevelExam::check_skin() {
     for (std::size_t w = 0; w < core.words().size(); ++w) {
         core.words()[w] = inside_.words()[w] & ~core.words()[w];
     }
-    const Bitmap reachable = dilated(core, radius);
+    const Bitmap reachable = dilated(std::move(core), radius);
     std::size_t ring = 0;
     std::size_t uncovered = 0;
     for (std::size_t w = 0; w < inside_.words().size(); ++w) {
@@ -357,15 +358,16 @@ void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
     for (std::size_t w = 0; w < hanging.words().size(); ++w) {
         hanging.words()[w] &= ~carried.words()[w] & ~previous.words()[w];
     }
-    Bitmap far = far_from(hanging, carried, limits::kHangingMm, scene_.pixel_mm);
-    if (mm2(far.count()) < limits::kHangingMm2) {
+    Bitmap far =
+        far_from(hanging, carried, {limits::kHangingMm, limits::kHangingMm2}, scene_.pixel_mm);
+    if (far.count() == 0) {
         return;
     }
     // A bead may end on a bridge of the same layer: skin between two bridged walls.
     const int reach = static_cast<int>(std::lround(limits::kAnchorMm / scene_.pixel_mm));
     Bitmap held = carried;
     held.unite(previous);  // over the part below, be it hollow: infill carries an end
-    Bitmap anchors = dilated(held, reach);
+    Bitmap anchors = dilated(std::move(held), reach);
     for (int round = 0; round < kBridgeRounds; ++round) {
         const std::vector<char> bridges =
             find_bridges(*scene_.beads, *scene_.levels, level_, anchors, scene_.pixel_mm);

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cam::verify {
 namespace {
 
-constexpr double kStepMm = 0.5;  ///< a disc of that radius is grown at a time
+constexpr double kStepMm = 0.5;  ///< grown between two looks at what is left
 constexpr double kSamePlaceMm = 0.01;
 constexpr double kStraight = 0.98;  ///< cosine of the largest bend within a bridge
 
@@ -30,17 +31,20 @@ bool goes_on(const Bead& a, const Bead& b) {
 
 }  // namespace
 
-Bitmap far_from(const Bitmap& hanging, const Bitmap& grounded, double distance_mm,
+Bitmap far_from(const Bitmap& hanging, const Bitmap& grounded, const FarFrom& rule,
                 double pixel_mm) {
     const int radius = std::max(1, static_cast<int>(std::lround(kStepMm / pixel_mm)));
-    const int steps = static_cast<int>(std::ceil(distance_mm / (radius * pixel_mm)));
+    const int steps = static_cast<int>(std::ceil(rule.distance_mm / (radius * pixel_mm)));
     Bitmap near = grounded;
-    for (int k = 0; k < steps; ++k) {
-        near = dilated(near, radius);
-    }
     Bitmap far = hanging;
-    for (std::size_t w = 0; w < far.words().size(); ++w) {
-        far.words()[w] &= ~near.words()[w];
+    for (int k = 0; k < steps; ++k) {
+        near = dilated(std::move(near), radius);
+        for (std::size_t w = 0; w < far.words().size(); ++w) {
+            far.words()[w] &= ~near.words()[w];
+        }
+        if (static_cast<double>(far.count()) * pixel_mm * pixel_mm < rule.enough_mm2) {
+            return Bitmap(hanging.window());
+        }
     }
     return far;
 }

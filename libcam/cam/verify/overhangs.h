@@ -9,9 +9,14 @@
 
 namespace cam::verify {
 
-/// The pixels of `hanging` further than `distance_mm` from any pixel of `grounded`. O(words *
-/// distance).
-[[nodiscard]] Bitmap far_from(const Bitmap& hanging, const Bitmap& grounded, double distance_mm,
+struct FarFrom {
+    double distance_mm = 0;
+    double enough_mm2 = 0;  ///< less than that is nothing
+};
+
+/// The pixels of `hanging` further than a distance from any pixel of `grounded`; none when they are
+/// not enough. O(words * distance).
+[[nodiscard]] Bitmap far_from(const Bitmap& hanging, const Bitmap& grounded, const FarFrom& rule,
                               double pixel_mm);
 
 /// For each bead of a level, whether it is part of a bridge: a straight run of beads, one after the

@@ -85,6 +85,48 @@ TEST(Peer, ProgramsOfCuraEnginePass) {
     }
 }
 
+/// A prism along Y over a polygon of the XZ plane, given with its triangles.
+TriMesh prism(const std::vector<std::array<double, 2>>& corners,
+              const std::vector<std::array<std::uint32_t, 3>>& face) {
+    TriMesh mesh;
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    for (const double y : {0.0, 30.0}) {
+        for (const auto& [x, z] : corners) {
+            mesh.points.emplace_back(x, y, z);
+        }
+    }
+    for (const auto& t : face) {
+        mesh.triangles.push_back(t);
+        mesh.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t j = (i + 1) % count;
+        mesh.triangles.push_back({i, i + count, j + count});
+        mesh.triangles.push_back({i, j + count, j});
+    }
+    return mesh;
+}
+
+TEST(Peer, ABridgedTablePassesAndAShelfWithoutSupportsDoesNot) {
+    const TriMesh table =
+        prism({{0, 0}, {10, 0}, {10, 15}, {30, 15}, {30, 0}, {40, 0}, {40, 20}, {0, 20}},
+              {{0, 1, 2}, {0, 2, 7}, {2, 3, 7}, {3, 6, 7}, {3, 4, 5}, {3, 5, 6}});
+    const TriMesh tee =
+        prism({{20, 0}, {30, 0}, {30, 20}, {50, 20}, {50, 26}, {0, 26}, {0, 20}, {20, 20}},
+              {{0, 1, 2}, {0, 2, 7}, {7, 2, 3}, {7, 3, 4}, {7, 4, 5}, {7, 5, 6}});
+    const auto bridged = tests::prusa_program("table", table);
+    const auto shelf = tests::prusa_program("tee", tee);
+    if (!bridged || !shelf) {
+        GTEST_SKIP() << "prusa-slicer is not installed or does not run";
+    }
+    const Proof good = prove(*bridged, tests::centred(table));
+    EXPECT_TRUE(good.passed()) << told(good);
+    const Proof bad = prove(*shelf, tests::centred(tee));
+    ASSERT_EQ(bad.faults.size(), 1U) << told(bad);
+    EXPECT_EQ(bad.faults[0].code, "proof.unsupported");
+    EXPECT_EQ(bad.faults[0].layer, 100);
+}
+
 /// A program as lines, with the range of each layer.
 struct Program {
     std::vector<std::string> lines;

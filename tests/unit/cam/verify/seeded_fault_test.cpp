@@ -245,6 +245,55 @@ TEST(SeededFault, APartThatTheProgramForgetsIsToldByName) {
     EXPECT_NE(find(proof, "proof.missing_part")->text.find("P02"), std::string::npos);
 }
 
+TEST(SeededFault, OnAPlateOfTwoTheLayerThatOneOfThemLacksIsToldByName) {
+    BoxPrint print;
+    print.half_mm = 8;
+    print.loops = 20;
+    print.after = [](BoxWriter& out, int layer) {
+        for (int k = 0; layer != 9 && k < 20; ++k) {
+            out.square({40, 0}, 8 - 0.4 * k - 0.2, 0.4, 0.2, 40);
+        }
+    };
+    BoxPrint second = print;
+    second.centre = {40, 0};
+    cam::verify::PlacedPart other = box_part(second);
+    other.id = "P02";
+    const PrintedBox printed = print_box(print);
+    const Proof proof = prove(printed, {box_part(print), other});
+    ASSERT_EQ(proof.faults.size(), 1U) << told(proof);
+    EXPECT_EQ(proof.faults[0].code, "proof.missing_layer");
+    EXPECT_NE(proof.faults[0].text.find("P02"), std::string::npos);
+    EXPECT_NE(proof.faults[0].text.find("between z 1.8 and 2 mm"), std::string::npos)
+        << told(proof);
+}
+
+TEST(SeededFault, ACoverTheProgramForgetsIsAMissingLayerAtTheTop) {
+    BoxPrint print;
+    cam::verify::PlacedPart taller = box_part(print);
+    for (auto& point : taller.mesh.points) {
+        point.z() = point.z() > 1 ? 5 : 0;
+    }
+    const Proof proof = prove(print_box(print), {taller});
+    ASSERT_NE(find(proof, "proof.missing_layer"), nullptr) << told(proof);
+    EXPECT_EQ(find(proof, "proof.missing_layer")->layer, 20);
+}
+
+TEST(SeededFault, SupportsAreNoExcuseForAPartThatIsNotThere) {
+    // Everything declared as support: the part itself is then not made.
+    BoxPrint print;
+    PrintedBox printed = print_box(print);
+    for (std::size_t at = 0;
+         (at = printed.text.find(";TYPE:outer-wall", at)) != std::string::npos;) {
+        printed.text.replace(at, 16, ";TYPE:support   ");
+    }
+    for (std::size_t at = 0;
+         (at = printed.text.find(";TYPE:solid-infill", at)) != std::string::npos;) {
+        printed.text.replace(at, 18, ";TYPE:support     ");
+    }
+    const Proof proof = prove(printed, {box_part(print)});
+    ASSERT_NE(find(proof, "proof.missing_part"), nullptr) << told(proof);
+}
+
 TEST(SeededFault, TheProofDoesNotDependOnTheNumberOfThreads) {
     BoxPrint print;
     print.before = [](BoxWriter& out, int layer) { out.shift = {layer >= 6 ? 0.5 : 0, 0}; };
