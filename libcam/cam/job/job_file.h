@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "decomp/base/frame.h"
+#include "decomp/base/result.h"
+#include "decomp/part/part.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The job directory: what is in it, how it is made, resumed and reported. docs/formats.md has the
+/// schema.
+namespace cam::job {
+
+/// What was asked of the pipeline; everything here may change its results.
+struct JobOptions {
+    std::string machine;                ///< profile name or path
+    std::string material;               ///< empty: the machine's own
+    std::vector<std::string> settings;  ///< "process.layer_height_mm=0.15"
+    std::string unit;  ///< of the file: mm, cm, m, in; empty: the file's own, or mm
+    double scale = 1;
+    std::string up = "z";             ///< axis of the file that points up: x -x y -y z -z auto
+    std::optional<double> height_mm;  ///< wished extent along up
+    std::uint64_t seed = 1;
+    int max_parts = 200;
+
+    bool operator==(const JobOptions&) const = default;
+};
+
+struct InputFile {
+    std::string name;  ///< without folder
+    std::uint64_t bytes = 0;
+    std::string sha256;
+};
+
+/// The shape in the model frame and what repair did to it.
+struct ModelFacts {
+    std::array<double, 16> model_from_file{};
+    std::size_t triangles = 0;
+    Eigen::Vector3d extent_mm = Eigen::Vector3d::Zero();
+    double volume_mm3 = 0;
+    std::string repair_status;  ///< clean, fixed, united, wrapped
+    std::vector<std::string> repair_changes;
+    double volume_before_mm3 = 0;
+    double hausdorff_mm = 0;
+};
+
+struct PartFacts {
+    std::string id;  ///< "P01"
+    std::size_t triangles = 0;
+    double volume_mm3 = 0;
+    Eigen::Vector3d extent_mm = Eigen::Vector3d::Zero();  ///< as printed
+    decomp::Pose<decomp::PartBedFrame, decomp::ModelFrame> part_from_model;
+    std::string base;  ///< "plane 3", or the axis of the model frame that points down, e.g. "-z"
+    double support_area_mm2 = 0;
+    std::vector<std::string> violations;  ///< "chamber.x by 1.2"; empty when the part fits
+};
+
+struct DecompositionFacts {
+    std::string tier;
+    int cuts = 0;
+    std::vector<decomp::part::Plane> planes;
+    std::vector<decomp::part::Interface> interfaces;
+    std::vector<std::string> notes;
+};
+
+/// A part on a plate: its part bed frame stands at `offset_mm` on the bed, unturned.
+struct PlacedPart {
+    std::string id;
+    Eigen::Vector2d offset_mm = Eigen::Vector2d::Zero();
+};
+
+struct ProgramFacts {
+    double seconds = 0;
+    double filament_mm = 0;
+    double filament_g = 0;
+    double cost = 0;
+};
+
+struct ProofFacts {
+    bool passed = false;
+    std::size_t faults = 0;
+    std::string first_fault;  ///< "line 120: proof.outside_chamber: …"; empty when passed
+    double out_of_part_percent = 0;
+    double uncovered_skin_percent = 0;
+    double solid_fill_ratio = 0;
+    double max_flow_mm3_per_s = 0;
+    int floating_islands = 0;
+};
+
+struct PlateFacts {
+    std::string name;  ///< "plate-1"
+    std::vector<PlacedPart> parts;
+    ProgramFacts program;
+    ProofFacts proof;
+    std::string converted;  ///< path of the converter's file, e.g. plates/plate-1.x3g; empty: none
+};
+
+struct OutputFile {
+    std::string path;  ///< relative to the job directory, with '/'
+    std::string sha256;
+
+    bool operator==(const OutputFile&) const = default;
+};
+
+/// A finished stage: `key` is the hash of everything that it read. It is done while the key is what
+/// it would be today and every output has its hash.
+struct StageRecord {
+    std::string name;
+    std::string key;
+    std::vector<OutputFile> outputs;
+};
+
+/// job.json as a value.
+struct JobFile {
+    std::string version;
+    InputFile input;
+    JobOptions options;
+    std::string profile_sha256;
+    bool finished = false;  ///< false while a run is under way or was interrupted
+    ModelFacts model;
+    DecompositionFacts decomposition;
+    std::vector<PartFacts> parts;
+    std::vector<PlateFacts> plates;
+    std::vector<StageRecord> stages;
+
+    [[nodiscard]] const StageRecord* stage(std::string_view name) const;
+    [[nodiscard]] const PartFacts* part(std::string_view id) const;
+};
+
+/// "PROGRAM.proof.json"
+[[nodiscard]] std::string sidecar_path(const std::string& program);
+
+/// "plates/plate-1.gcode"
+[[nodiscard]] std::string program_path(const PlateFacts& plate);
+
+/// Where a part stands on the bed: base at z = 0, its part bed frame moved to the offset.
+[[nodiscard]] decomp::Pose<decomp::BedFrame, decomp::PartBedFrame> bed_from_part(
+    const Eigen::Vector2d& offset_mm);
+
+/// The text of job.json: fixed key order, shortest numbers, a final newline.
+[[nodiscard]] std::string job_json(const JobFile& job);
+
+/// @error job.unreadable (with the key), job.schema (a schema that this version does not know)
+[[nodiscard]] decomp::Result<JobFile> parse_job_json(std::string_view text,
+                                                     const std::string& where);
+
+/// Reads DIRECTORY/job.json. @error job.not_a_job, and as parse_job_json()
+[[nodiscard]] decomp::Result<JobFile> read_job(const std::filesystem::path& directory);
+
+/// As read_job(), for verbs that need a job whose files belong together. @error job.unfinished, as
+/// read_job()
+[[nodiscard]] decomp::Result<JobFile> read_finished_job(const std::filesystem::path& directory);
+
+}  // namespace cam::job

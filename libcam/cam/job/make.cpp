@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/job/make.h"
+
+#include "cam/job/maker_detail.h"
+#include "cam/job/report.h"
+#include "decomp/base/file.h"
+#include "decomp/base/hash.h"
+#include "decomp/io/orient.h"
+#include "decomp/io/read_mesh.h"
+#include "decomp/mesh/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cam::job {
+
+namespace fs = std::filesystem;
+using decomp::fail;
+using decomp::Result;
+using decomp::Run;
+using decomp::Status;
+
+namespace {
+
+/// Nothing but what a killed run may have left.
+bool holds_nothing(const fs::path& directory) {
+    std::error_code ignored;
+    return std::all_of(
+        fs::directory_iterator(directory, ignored), fs::directory_iterator(),
+        [](const auto& entry) { return entry.path().filename().string().starts_with(".hew-"); });
+}
+
+/// The earlier job of this directory, or an empty one.
+Result<JobFile> earlier_job(const MakeRequest& request) {
+    std::error_code ignored;
+    if (!fs::exists(request.directory / "job.json", ignored)) {
+        if (fs::exists(request.directory, ignored) && !holds_nothing(request.directory) &&
+            !request.force) {
+            return fail("job.not_empty", "the directory holds other things, and no job",
+                        request.directory.string(), "choose another directory, or add --force");
+        }
+        return JobFile{};
+    }
+    auto job = read_job(request.directory);
+    if (!job && request.force) {
+        return JobFile{};
+    }
+    return job;
+}
+
+/// Everything that is read before the first stage.
+struct Start {
+    JobFile job;
+    profile::FdmSetup setup;
+    std::string model_bytes;
+};
+
+Result<Start> start_of(const MakeRequest& request) {
+    auto job = earlier_job(request);
+    if (!job) {
+        return fail(job.error());
+    }
+    auto setup = profile::read_fdm_setup(request.options.machine, request.options.material,
+                                         request.options.settings);
+    if (!setup) {
+        return fail(setup.error());
+    }
+    if (const auto up = decomp::io::parse_up(request.options.up); !up) {
+        return fail(up.error());
+    }
+    auto bytes = decomp::read_file(request.model);
+    if (!bytes) {
+        return fail(bytes.error());
+    }
+    const InputFile input{request.model.filename().string(), bytes->size(),
+                          decomp::sha256_hex(*bytes)};
+    if (!job->input.name.empty() && job->input.name != input.name &&
+        job->input.sha256 != input.sha256 && !request.force) {
+        return fail("job.other_model", "the directory holds the job of '" + job->input.name + "'",
+                    request.directory.string(),
+                    "choose another directory, or add --force to replace that job");
+    }
+    job->version = HEW_VERSION;
+    job->input = input;
+    job->options = request.options;
+    job->options.material = setup->material.name;
+    job->profile_sha256 = setup->hash;
+    return Start{std::move(*job), std::move(*setup), std::move(*bytes)};
+}
+
+/// Makes the directory and puts a manifest there before anything else: whatever happens next, it is
+/// a job of Hew's.
+Status open_directory(const fs::path& directory, const JobFile& job) {
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (error) {
+        return fail("file.unwritable", "cannot make the folder: " + error.message(),
+                    directory.string());
+    }
+    if (!fs::exists(directory / "job.json")) {
+        return decomp::write_file(directory / "job.json", job_json(job), decomp::Overwrite::Allow);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<MakeResult> make(const MakeRequest& request, Run& run) {
+    auto start = start_of(request);
+    if (!start) {
+        return fail(start.error());
+    }
+    if (const auto opened = open_directory(request.directory, start->job); !opened) {
+        return fail(opened.error());
+    }
+    const auto lock = DirectoryLock::take(request.directory);
+    if (!lock) {
+        return fail(lock.error());
+    }
+    remove_leftovers(request.directory);
+    MakeResult result{std::move(start->job), {}};
+    Maker maker(request, std::move(start->setup), std::move(start->model_bytes), result.job, run);
+    const Status made = maker.make_all();
+    if (!made) {
+        return fail(made.error());
+    }
+    result.timings = maker.timings();
+    const Status written = decomp::write_file(
+        request.directory / "timings.json", timings_json(result.timings), decomp::Overwrite::Allow);
+    if (!written) {
+        return fail(written.error());
+    }
+    return result;
+}
+
+Result<MakePlan> plan_make(const MakeRequest& request, Run& run) {
+    auto start = start_of(request);
+    if (!start) {
+        return fail(start.error());
+    }
+    const JobOptions& options = request.options;
+    auto mesh = decomp::io::parse_mesh(start->model_bytes, start->job.input.name,
+                                       {.scale = options.scale, .unit = options.unit}, run);
+    if (!mesh) {
+        return fail(mesh.error());
+    }
+    MakePlan plan;
+    const auto up = decomp::io::parse_up(options.up);
+    plan.extent_mm =
+        decomp::mesh::bounds(decomp::io::to_model_frame(std::move(*mesh), *up, options.height_mm))
+            .sizes();
+    const auto& chamber = start->setup.machine.chamber;
+    plan.chamber_mm =
+        chamber.max_mm - chamber.min_mm - chamber.margin_mm * Eigen::Vector3d(2, 2, 1);
+    plan.blocks = static_cast<int>(
+        plan.extent_mm.cwiseQuotient(plan.chamber_mm).array().ceil().max(1).prod());
+    plan.input = start->job.input;
+    plan.options = start->job.options;
+    plan.profile_sha256 = start->job.profile_sha256;
+    const Maker maker(request, std::move(start->setup), std::move(start->model_bytes), start->job,
+                      run);
+    plan.kept = maker.kept_stages(plan.complete);
+    return plan;
+}
+
+}  // namespace cam::job
