@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/exit_code.h"
+
+#include <array>
+#include <string_view>
+
+namespace tools {
+
+namespace {
+
+struct Row {
+    std::string_view code;  ///< a whole code, or a room with its dot
+    int exit;
+};
+
+constexpr std::array kRows{
+    Row{"run.cancelled", kCancelled},
+    Row{"usage.", kUsage},
+    Row{"file.not_found", kBadInput},
+    Row{"file.unreadable", kBadInput},
+    Row{"file.", kInputOutput},
+    Row{"io.", kBadInput},
+    Row{"mesh.", kBadInput},
+    Row{"repair.", kBadInput},
+    Row{"profile.not_found", kUsage},
+    Row{"profile.", kBadInput},
+    Row{"cut.not_a_volume", kBadInput},
+    Row{"decompose.", kInfeasible},
+    Row{"sections.", kInfeasible},
+    Row{"orient.", kInfeasible},
+    Row{"plate.", kInfeasible},
+    Row{"fdm.", kInfeasible},
+    Row{"post.", kInfeasible},
+    Row{"proof.unreadable", kBadInput},
+    Row{"proof.", kProofFailed},
+    Row{"convert.", kInputOutput},
+    Row{"job.not_empty", kInputOutput},
+    Row{"job.other_model", kInputOutput},
+    Row{"job.busy", kInputOutput},
+    Row{"job.no_such_part", kUsage},
+    Row{"job.part_does_not_fit", kInfeasible},
+    Row{"job.part_too_large", kInfeasible},
+    Row{"job.", kBadInput},
+};
+
+}  // namespace
+
+int exit_code(const decomp::Error& error) {
+    const Row* best = nullptr;
+    for (const Row& row : kRows) {
+        const bool matches =
+            row.code.back() == '.' ? error.code.starts_with(row.code) : error.code == row.code;
+        if (matches && (best == nullptr || row.code.size() > best->code.size())) {
+            best = &row;
+        }
+    }
+    return best == nullptr ? kInternal : best->exit;
+}
+
+}  // namespace tools

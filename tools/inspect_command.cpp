@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/base/number.h"
+#include "decomp/io/read_mesh.h"
+#include "decomp/mesh/check.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/repair/intersect.h"
+#include "decomp/repair/repair.h"
+#include "tools/verb.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace tools {
+
+namespace {
+
+constexpr std::size_t kIntersectionsCounted = 10000;
+
+struct Command {
+    std::filesystem::path model;
+    decomp::io::ReadOptions read;
+};
+
+Json topology_json(const decomp::mesh::TopologyReport& topology) {
+    return {{"closed", topology.closed()},
+            {"manifold", topology.manifold()},
+            {"components", topology.components},
+            {"euler_characteristic", topology.euler_characteristic},
+            {"border_edges", topology.border_edges},
+            {"non_manifold_edges", topology.non_manifold_edges},
+            {"non_manifold_vertices", topology.non_manifold_vertices},
+            {"misoriented_edges", topology.misoriented_edges},
+            {"degenerate_triangles", topology.degenerate_triangles}};
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+    return count == 0 ? std::string() : "  " + std::to_string(count) + " " + what + "\n";
+}
+
+std::string text_of(const decomp::mesh::TriMesh& mesh, const decomp::mesh::TopologyReport& topology,
+                    std::size_t intersections) {
+    const Eigen::AlignedBox3d box = decomp::mesh::bounds(mesh);
+    const Eigen::Vector3d size = box.sizes();
+    std::string text = std::to_string(mesh.triangles.size()) + " triangles, " +
+                       std::to_string(mesh.points.size()) + " points, " +
+                       std::to_string(topology.components) +
+                       (topology.components == 1 ? " piece\n" : " pieces\n");
+    text += decomp::decimal(size.x(), 3) + " x " + decomp::decimal(size.y(), 3) + " x " +
+            decomp::decimal(size.z(), 3) + " mm, " +
+            decomp::decimal(decomp::mesh::volume_mm3(mesh) / 1000, 3) + " cm3, " +
+            decomp::decimal(decomp::mesh::area_mm2(mesh) / 100, 3) + " cm2\n";
+    text += topology.manifold() && intersections == 0 ? "a sound solid\n" : "not a sound solid:\n";
+    return text + counted(topology.border_edges, "open edges") +
+           counted(topology.non_manifold_edges, "edges with more than two triangles") +
+           counted(topology.non_manifold_vertices, "points where surfaces merely touch") +
+           counted(topology.misoriented_edges, "edges between triangles of opposite sense") +
+           counted(topology.degenerate_triangles, "triangles without area") +
+           counted(intersections, "pairs of triangles that cross");
+}
+
+decomp::Result<Answer> inspect(const Command& command, const decomp::Run& outer) {
+    decomp::Run run = outer;
+    const auto mesh = decomp::io::read_mesh(command.model, command.read, run);
+    if (!mesh) {
+        return decomp::fail(mesh.error());
+    }
+    const auto topology = decomp::mesh::check_topology(*mesh);
+    const std::size_t intersections =
+        decomp::repair::self_intersections(*mesh, kIntersectionsCounted).size();
+    const auto repaired = decomp::repair::repair(*mesh, {}, run);
+    if (run.cancelled()) {
+        return decomp::cancelled();
+    }
+    const Eigen::AlignedBox3d box = decomp::mesh::bounds(*mesh);
+    Answer answer;
+    answer.json["file"] = command.model.string();
+    answer.json["triangles"] = mesh->triangles.size();
+    answer.json["points"] = mesh->points.size();
+    answer.json["min_mm"] = {box.min().x(), box.min().y(), box.min().z()};
+    answer.json["max_mm"] = {box.max().x(), box.max().y(), box.max().z()};
+    answer.json["volume_mm3"] = decomp::mesh::volume_mm3(*mesh);
+    answer.json["area_mm2"] = decomp::mesh::area_mm2(*mesh);
+    answer.json["topology"] = topology_json(topology);
+    answer.json["crossing_pairs"] = intersections;
+    answer.text = text_of(*mesh, topology, intersections);
+    if (!repaired) {
+        answer.json["repair"] = {{"possible", false},
+                                 {"code", repaired.error().code},
+                                 {"message", repaired.error().message}};
+        answer.text += "repair is not possible: " + repaired.error().text() + "\n";
+        return answer;
+    }
+    const auto& report = repaired->report;
+    answer.json["repair"] = {{"possible", true},
+                             {"status", decomp::repair::name_of(report.status)},
+                             {"changes", report.changes},
+                             {"volume_mm3", report.volume_after_mm3},
+                             {"hausdorff_mm", report.hausdorff_mm}};
+    answer.text += "repair: " + std::string(decomp::repair::name_of(report.status)) + "\n";
+    for (const std::string& change : report.changes) {
+        answer.text += "  " + change + "\n";
+    }
+    return answer;
+}
+
+}  // namespace
+
+Action declare_inspect(CLI::App& app, const Common& /*common*/) {
+    auto command = std::make_shared<Command>();
+    app.add_option("model", command->model, "STL, OBJ, OFF, PLY, 3MF or Medit .mesh")->required();
+    app.add_option("--unit", command->read.unit, "length unit of the file: mm, cm, m, in")
+        ->group("Model");
+    app.add_option("--scale", command->read.scale, "factor on all lengths")
+        ->check(CLI::PositiveNumber)
+        ->group("Model");
+    return [command](const decomp::Run& run) { return inspect(*command, run); };
+}
+
+}  // namespace tools

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cam/job/make.h"
+#include "tools/verb.h"
+
+#include <memory>
+#include <string>
+
+namespace tools {
+
+/// Declares --unit, --scale, --up and --height of a model.
+void add_model_options(CLI::App& app, std::string& unit, double& scale, std::string& up,
+                       std::optional<double>& height_mm);
+
+/// Declares --machine, --material and --set.
+void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
+                         std::vector<std::string>& settings, bool required);
+
+/// What `make` and `decompose` have in common: declares their options, and makes the job up to
+/// `extent`.
+Action declare_job(CLI::App& app, const Common& common, cam::job::Extent extent);
+
+/// The job's figures for --json.
+[[nodiscard]] Json job_summary(const cam::job::JobFile& job);
+
+}  // namespace tools

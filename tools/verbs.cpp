@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/verb.h"
+
+namespace tools {
+
+const std::vector<Verb>& verbs() {
+    static const std::vector<Verb> kVerbs{
+        {"make", "From a shape to programs",
+         "cut a shape into parts and write a proved program for every plate",
+         "  hew make statue.stl --machine flashforge-creator-pro --up y --height 245mm -o out/\n"
+         "  hew make statue.stl --machine prusa-mk3s --material petg --set "
+         "process.layer_height_mm=0.15 -o out/\n"
+         "  hew make statue.stl --machine prusa-mk3s -o out/ --dry-run      what would be done, "
+         "writing nothing\n"
+         "An interrupted make run again continues where it stood.",
+         declare_make},
+        {"decompose", "From a shape to programs",
+         "cut a shape into parts that fit the machine, and stop there",
+         "  hew decompose statue.stl --machine prusa-mk3s --height 60cm -o out/\n"
+         "  hew make statue.stl --machine prusa-mk3s --height 60cm -o out/  continues from there",
+         declare_decompose},
+        {"slice", "From a shape to programs",
+         "write the program of one part of a job, or of a lone mesh",
+         "  hew slice out/ --part P03\n"
+         "  hew slice part.stl --machine prusa-mk3s -o part.gcode",
+         declare_slice},
+        {"verify", "Looking", "prove a program against the part that it should make",
+         "  hew verify part.gcode --part part.stl --machine prusa-mk3s\n"
+         "  hew verify out/                                                 all plates of a job\n"
+         "  hew verify cube.gcode --part cube.stl --machine prusa-mk3s --foreign",
+         declare_verify},
+        {"inspect", "Looking", "measure a mesh and say what is wrong with it",
+         "  hew inspect statue.stl\n"
+         "  hew inspect statue.obj --unit cm --json",
+         declare_inspect},
+        {"render", "Looking", "draw a mesh, the parts of a job, or the layers of a part",
+         "  hew render statue.stl -o statue.png\n"
+         "  hew render out/ -o parts.png --explode 0.3 --view iso",
+         declare_render},
+        {"machines", "Machines", "list the machine profiles, or explain one",
+         "  hew machines\n"
+         "  hew machines show prusa-mk3s",
+         declare_machines},
+        {"demo", "Machines", "write a statue that is larger than most printers, to try things on",
+         "  hew demo statue.stl", declare_demo},
+    };
+    return kVerbs;
+}
+
+}  // namespace tools
