@@ -56,16 +56,45 @@ struct Extent {
     Eigen::Vector2d span = Eigen::Vector2d::Zero();  // from the lowest to the highest point
 };
 
-Extent extent(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& direction) {
-    std::size_t low = 0;
-    std::size_t high = 0;
-    for (std::size_t i = 1; i < hull.size(); ++i) {
-        const double h = direction.dot(hull[i]);
-        low = h < direction.dot(hull[low]) ? i : low;
-        high = h > direction.dot(hull[high]) ? i : high;
+/// Extents along a direction that only turns counter-clockwise from call to call, and square to it:
+/// the extreme points walk around the hull once, so that all calls together cost O(hull).
+class Calipers {
+  public:
+    explicit Calipers(const std::vector<Eigen::Vector2d>& hull) : hull_(hull) {}
+
+    [[nodiscard]] Extent along(const Eigen::Vector2d& x) { return between(x, 0); }
+
+    [[nodiscard]] Extent across(const Eigen::Vector2d& x) { return between({-x.y(), x.x()}, 2); }
+
+  private:
+    Extent between(const Eigen::Vector2d& direction, std::size_t pair) {
+        const Eigen::Vector2d span =
+            hull_[extreme(direction, pair)] - hull_[extreme(-direction, pair + 1)];
+        return {direction.dot(span), span};
     }
-    return {direction.dot(hull[high] - hull[low]), hull[high] - hull[low]};
-}
+
+    std::size_t extreme(const Eigen::Vector2d& direction, std::size_t which) {
+        std::size_t& at = at_.at(which);
+        if (!known_.at(which)) {
+            known_.at(which) = true;
+            for (std::size_t i = 1; i < hull_.size(); ++i) {
+                at = direction.dot(hull_[i]) > direction.dot(hull_[at]) ? i : at;
+            }
+        }
+        for (std::size_t steps = 0; steps < hull_.size(); ++steps) {
+            const std::size_t next = (at + 1) % hull_.size();
+            if (direction.dot(hull_[next]) <= direction.dot(hull_[at])) {
+                break;
+            }
+            at = next;
+        }
+        return at;
+    }
+
+    const std::vector<Eigen::Vector2d>& hull_;
+    std::array<std::size_t, 4> at_{};
+    std::array<bool, 4> known_{};
+};
 
 /// Cosine and sine that are exact at the quarter turns.
 Eigen::Vector2d unit_at(double angle) {
@@ -78,11 +107,11 @@ Eigen::Vector2d unit_at(double angle) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-Turned turned(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& room, double angle) {
+Turned turned(Calipers& calipers, const Eigen::Vector2d& room, double angle) {
     const Eigen::Vector2d x = unit_at(angle);
     Turned out;
     out.angle = angle;
-    out.size = {extent(hull, x).size, extent(hull, {-x.y(), x.x()}).size};
+    out.size = {calipers.along(x).size, calipers.across(x).size};
     out.ratio = std::max(out.size.x() / room.x(), out.size.y() / room.y());
     return out;
 }
@@ -90,11 +119,11 @@ Turned turned(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& r
 /// Between two critical angles the extreme points stay the same, so both extents are cosines of the
 /// angle: the angle at which they fill the room equally, if there is one. a.x' / room.x = b.y' /
 /// room.y.
-void add_balanced(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& room, double low,
-                  double high, std::vector<double>& angles) {
+void add_balanced(Calipers& calipers, const Eigen::Vector2d& room, double low, double high,
+                  std::vector<double>& angles) {
     const Eigen::Vector2d x = unit_at((low + high) / 2);
-    const Eigen::Vector2d a = extent(hull, x).span / room.x();
-    const Eigen::Vector2d b = extent(hull, {-x.y(), x.x()}).span / room.y();
+    const Eigen::Vector2d a = calipers.along(x).span / room.x();
+    const Eigen::Vector2d b = calipers.across(x).span / room.y();
     // a . (c, s) = b . (-s, c)  =>  c (a.x - b.y) + s (a.y + b.x) = 0
     double angle = std::atan2(-(a.x() - b.y()), a.y() + b.x());
     for (; angle < 0;) {
@@ -131,9 +160,10 @@ std::vector<double> critical_angles(const std::vector<Eigen::Vector2d>& hull,
     distinct.push_back(kHalfTurn / 2);
     std::sort(distinct.begin(), distinct.end());
     std::vector<double> out = distinct;
+    Calipers calipers(hull);
     for (std::size_t i = 0; i < distinct.size(); ++i) {
-        add_balanced(hull, room, distinct[i], i + 1 < distinct.size() ? distinct[i + 1] : kHalfTurn,
-                     out);
+        add_balanced(calipers, room, distinct[i],
+                     i + 1 < distinct.size() ? distinct[i + 1] : kHalfTurn, out);
     }
     std::sort(out.begin(), out.end());
     return out;
@@ -194,8 +224,9 @@ Turned best_turn(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d
     Turned loosest;
     bool any = false;
     bool any_fits = false;
+    Calipers calipers(hull);
     for (const double angle : critical_angles(hull, room)) {
-        const Turned now = turned(hull, room, angle);
+        const Turned now = turned(calipers, room, angle);
         if (!any || now.ratio < loosest.ratio * (1 - kSameAngle)) {
             loosest = now;
         }
@@ -209,8 +240,9 @@ Turned best_turn(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d
     if (!any_fits) {
         return loosest;
     }
+    Calipers straight_on(hull);
     for (const double angle : {0.0, kHalfTurn / 2}) {
-        const Turned straight = turned(hull, room, angle);
+        const Turned straight = turned(straight_on, room, angle);
         if (straight.fits() && straight.size.prod() <= kUnturnedBonus * smallest.size.prod()) {
             return straight;
         }

@@ -28,7 +28,7 @@ struct Turned {
 
 /// The best turn of a hull in a room: the smallest rectangle that fits, unturned if that is within
 /// 2 % of it; when none fits, the least ratio. Exact: looks at every angle at which an edge is
-/// parallel to a side, and between them where both ratios are equal. O(h^2).
+/// parallel to a side, and between them where both ratios are equal. O(h log h).
 [[nodiscard]] Turned best_turn(const std::vector<Eigen::Vector2d>& hull,
                                const Eigen::Vector2d& room);
 

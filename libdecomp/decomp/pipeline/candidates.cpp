@@ -15,8 +15,9 @@ namespace {
 constexpr int kStations = 96;
 constexpr double kSameDirection = 0.9998;  // cosine of about 1 degree
 constexpr double kAxis = 1 - 1e-9;
-constexpr double kLargeFlat = 0.05;   // of the surface: cuts along it look meant
-constexpr double kEnds = 0.02;        // of the length: no plane closer to an end
+constexpr double kLargeFlat = 0.05;  // of the surface: cuts along it look meant
+constexpr double kAlike = 0.012;  // of the length: planes of one direction closer than this are one
+constexpr double kEnds = 0.02;    // of the length: no plane closer to an end
 constexpr double kRelaxedNeck = 0.2;  // strength from which a neck's plane is relaxed
 constexpr std::size_t kRelaxed = 4;   // necks relaxed at most
 constexpr std::size_t kEventsPerDirection = 10;
@@ -67,7 +68,16 @@ void add_direction(const part::Part& part, const Direction& direction, int offse
     const sections::Profile profile(part.mesh, direction.unit, kStations);
     const double low = profile.low_mm();
     const double length = profile.high_mm() - low;
+    const std::size_t first = out.size();
     const auto add = [&](double offset, double strength) {
+        const bool known =
+            std::any_of(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                        [&](const Candidate& other) {
+                            return std::abs(other.plane.offset_mm - offset) < kAlike * length;
+                        });
+        if (known) {
+            return;
+        }
         if (offset > low + kEnds * length && offset < low + (1 - kEnds) * length) {
             out.push_back(
                 {{direction.unit, offset}, direction.index, direction.natural, false, strength});
@@ -86,11 +96,6 @@ void add_direction(const part::Part& part, const Direction& direction, int offse
     }
     for (int i = 1; i <= offsets; ++i) {
         add(low + length * i / (offsets + 1), 0);
-    }
-    for (const int slabs : {3, 5}) {
-        for (int i = 1; i < slabs; ++i) {
-            add(low + length * i / slabs, 0);
-        }
     }
 }
 

@@ -17,7 +17,7 @@ namespace decomp::pipeline {
 struct DecomposeOptions {
     int max_parts = 200;         ///< more than these is an error
     int proxy_triangles = 5000;  ///< planes are searched on a simplified surface of this size
-    int offsets = 15;   ///< evenly spaced planes tried along each direction, besides the events
+    int offsets = 11;   ///< evenly spaced planes tried along each direction, besides the events
     int lookahead = 4;  ///< best first cuts that are followed to the end
     double thin_share =
         0.015;  ///< of the diagonal: volume / interface below it is a tongue, taken only in need

@@ -157,7 +157,7 @@ struct Node {
 
 std::vector<Trial> all_tried(const Node& node, const Search& search) {
     const int offsets =
-        node.depth == 0 ? search.options.offsets : std::max(7, search.options.offsets / 2);
+        node.depth == 0 ? search.options.offsets : std::min(7, search.options.offsets);
     const std::vector<Candidate> planes = candidates(node.part, node.verdict, offsets, node.known);
     const double needed = parts_needed(node.verdict);
     std::vector<std::optional<Trial>> slots(planes.size());
