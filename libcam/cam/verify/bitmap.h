@@ -123,76 +123,126 @@ class Bitmap {
 /// radius 2, an octagon within 6 % of it beyond. O(words * radius).
 [[nodiscard]] Bitmap dilated(Bitmap bitmap, int radius);
 
-/// Calls body(row, i0, i1) for the pixel centres within `radius` of the segment a-b; all in mm,
-/// pixels of `pixel` mm. Rows outside [lowest, highest] are left out.
+/// The points within `radius` of a segment; mm.
+struct Capsule {
+    double ax = 0;
+    double ay = 0;
+    double bx = 0;
+    double by = 0;
+    double radius = 0;
+};
+
+/// The rows of a grid that are drawn on.
+struct GridRows {
+    double pixel_mm = 0.1;
+    int lowest = 0;
+    int highest = 0;
+
+    GridRows(const Window& window, double pixel)
+        : pixel_mm(pixel), lowest(window.bottom), highest(window.bottom + window.rows - 1) {}
+};
+
+/// Cuts a capsule row by row.
+class CapsuleCutter {
+  public:
+    struct Span {
+        double left = 1;
+        double right = -1;
+    };
+
+    explicit CapsuleCutter(const Capsule& capsule);
+
+    /// The x of the capsule at this y; left > right when there are none.
+    [[nodiscard]] Span at(double y) const;
+
+  private:
+    void add_cap(double x, double dy, Span& span) const;
+    void add_flank(double dy, Span& span) const;
+
+    Capsule c_;
+    double length_ = 0;
+    double ux_ = 0;  ///< direction from a to b; zero for a point
+    double uy_ = 0;
+};
+
+/// Calls body(row, i0, i1) for the pixels whose centres lie in the capsule.
 template <class Body>
-void for_capsule_rows(double ax, double ay, double bx, double by, double radius, double pixel,
-                      int lowest, int highest, const Body& body) {
-    const double inverse = 1 / pixel;
-    const double ys = ay < by ? ay : by;
-    const double yl = ay < by ? by : ay;
-    const int from = static_cast<int>(std::ceil((ys - radius) * inverse - 0.5));
-    const int to = static_cast<int>(std::floor((yl + radius) * inverse - 0.5));
-    double ux = bx - ax;
-    double uy = by - ay;
-    const double length = std::sqrt(ux * ux + uy * uy);
+void for_capsule_rows(const Capsule& capsule, const GridRows& rows, const Body& body) {
+    const double inverse = 1 / rows.pixel_mm;
+    const double low = capsule.ay < capsule.by ? capsule.ay : capsule.by;
+    const double high = capsule.ay < capsule.by ? capsule.by : capsule.ay;
+    const int from = static_cast<int>(std::ceil((low - capsule.radius) * inverse - 0.5));
+    const int to = static_cast<int>(std::floor((high + capsule.radius) * inverse - 0.5));
+    const CapsuleCutter cutter(capsule);
+    for (int j = from < rows.lowest ? rows.lowest : from; j <= to && j <= rows.highest; ++j) {
+        const CapsuleCutter::Span span = cutter.at((j + 0.5) * rows.pixel_mm);
+        if (span.left <= span.right) {
+            body(j, static_cast<int>(std::ceil(span.left * inverse - 0.5)),
+                 static_cast<int>(std::floor(span.right * inverse - 0.5)));
+        }
+    }
+}
+
+inline CapsuleCutter::CapsuleCutter(const Capsule& capsule) : c_(capsule) {
     constexpr double kShortest = 1e-9;
+    const double dx = c_.bx - c_.ax;
+    const double dy = c_.by - c_.ay;
+    length_ = std::sqrt(dx * dx + dy * dy);
+    if (length_ > kShortest) {
+        ux_ = dx / length_;
+        uy_ = dy / length_;
+    }
+}
+
+inline void CapsuleCutter::add_cap(double x, double dy, Span& span) const {
+    const double rest = c_.radius * c_.radius - dy * dy;
+    if (rest < 0) {
+        return;
+    }
+    const double half = std::sqrt(rest);
+    const bool empty = span.left > span.right;
+    span.left = empty || x - half < span.left ? x - half : span.left;
+    span.right = empty || x + half > span.right ? x + half : span.right;
+}
+
+/// The rectangle between the caps: 0 <= along <= length and |across| <= radius on this row.
+inline void CapsuleCutter::add_flank(double dy, Span& span) const {
     constexpr double kLevel = 1e-12;  // direction along a row or a column
-    const bool long_enough = length > kShortest;
-    if (long_enough) {
-        ux /= length;
-        uy /= length;
+    constexpr double kFar = 1e300;
+    double low = -kFar;
+    double high = kFar;
+    if (std::abs(ux_) > kLevel) {
+        const double s = (0 - dy * uy_) / ux_;
+        const double t = (length_ - dy * uy_) / ux_;
+        low = s < t ? s : t;
+        high = s < t ? t : s;
+    } else if (dy * uy_ < 0 || dy * uy_ > length_) {
+        return;
     }
-    for (int j = from < lowest ? lowest : from; j <= (to > highest ? highest : to); ++j) {
-        const double y = (j + 0.5) * pixel;
-        double left = 1e300;
-        double right = -1e300;
-        const double da = radius * radius - (y - ay) * (y - ay);
-        if (da >= 0) {
-            const double half = std::sqrt(da);
-            left = ax - half;
-            right = ax + half;
-        }
-        const double db = radius * radius - (y - by) * (y - by);
-        if (db >= 0) {
-            const double half = std::sqrt(db);
-            left = bx - half < left ? bx - half : left;
-            right = bx + half > right ? bx + half : right;
-        }
-        if (long_enough) {
-            // The rectangle between the caps: 0 <= along <= length and |across| <= radius on this
-            // row.
-            double low = -1e300;
-            double high = 1e300;
-            const double dy = y - ay;
-            if (std::abs(ux) > kLevel) {
-                const double s = (0 - dy * uy) / ux;
-                const double t = (length - dy * uy) / ux;
-                low = s < t ? s : t;
-                high = s < t ? t : s;
-            } else if (dy * uy < 0 || dy * uy > length) {
-                low = 1e300;
-            }
-            if (std::abs(uy) > kLevel) {
-                const double s = (dy * ux - radius) / uy;
-                const double t = (dy * ux + radius) / uy;
-                const double l = s < t ? s : t;
-                const double h = s < t ? t : s;
-                low = l > low ? l : low;
-                high = h < high ? h : high;
-            } else if (std::abs(dy * ux) > radius) {
-                low = 1e300;
-            }
-            if (low <= high) {
-                left = ax + low < left ? ax + low : left;
-                right = ax + high > right ? ax + high : right;
-            }
-        }
-        if (left <= right) {
-            body(j, static_cast<int>(std::ceil(left * inverse - 0.5)),
-                 static_cast<int>(std::floor(right * inverse - 0.5)));
-        }
+    if (std::abs(uy_) > kLevel) {
+        const double s = (dy * ux_ - c_.radius) / uy_;
+        const double t = (dy * ux_ + c_.radius) / uy_;
+        low = low > (s < t ? s : t) ? low : (s < t ? s : t);
+        high = high < (s < t ? t : s) ? high : (s < t ? t : s);
+    } else if (std::abs(dy * ux_) > c_.radius) {
+        return;
     }
+    if (low > high) {
+        return;
+    }
+    const bool empty = span.left > span.right;
+    span.left = empty || c_.ax + low < span.left ? c_.ax + low : span.left;
+    span.right = empty || c_.ax + high > span.right ? c_.ax + high : span.right;
+}
+
+inline CapsuleCutter::Span CapsuleCutter::at(double y) const {
+    Span span;
+    add_cap(c_.ax, y - c_.ay, span);
+    add_cap(c_.bx, y - c_.by, span);
+    if (ux_ != 0 || uy_ != 0) {
+        add_flank(y - c_.ay, span);
+    }
+    return span;
 }
 
 }  // namespace cam::verify

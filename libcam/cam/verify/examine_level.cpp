@@ -143,8 +143,8 @@ void LevelExam::rows_of(std::uint32_t k, const Body& body) const {
     const Bead& b = bead(k);
     const Lie& lie = lies_[k - level_.first];
     const double height = lie.height > 0 ? lie.height : strand_diameter(lie.area);
-    for_capsule_rows(b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2, scene_.pixel_mm,
-                     window_.bottom, window_.bottom + window_.rows - 1, body);
+    for_capsule_rows({b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2},
+                     GridRows(window_, scene_.pixel_mm), body);
 }
 
 void LevelExam::make_window() {

@@ -90,13 +90,12 @@ Bitmap rough_deposit(const std::vector<Bead>& beads, const Levels& levels, std::
                      double pixel_mm) {
     const Level& level = levels.levels[index];
     Bitmap bitmap(window_of(beads, levels, index, pixel_mm));
-    const int lowest = bitmap.window().bottom;
-    const int highest = lowest + bitmap.window().rows - 1;
+    const GridRows rows(bitmap.window(), pixel_mm);
     for (std::uint32_t k = level.first; k < level.last; ++k) {
         const Bead& bead = beads[levels.order[k]];
         const double area = bead.volume_mm3 / bead_length(bead);
         const double width = bead_width(area, guessed_height(level, bead, area));
-        for_capsule_rows(bead.x0, bead.y0, bead.x1, bead.y1, width / 2, pixel_mm, lowest, highest,
+        for_capsule_rows({bead.x0, bead.y0, bead.x1, bead.y1, width / 2}, rows,
                          [&](int j, int i0, int i1) { bitmap.fill(j, i0, i1); });
     }
     return bitmap;

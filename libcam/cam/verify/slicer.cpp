@@ -138,10 +138,9 @@ void fill_section(const Section& section, double pixel_mm, Bitmap& bitmap) {
 }
 
 void draw_outline(const Section& section, double radius_mm, double pixel_mm, Bitmap& bitmap) {
-    const int lowest = bitmap.window().bottom;
-    const int highest = lowest + bitmap.window().rows - 1;
+    const GridRows rows(bitmap.window(), pixel_mm);
     for (const auto& [x0, y0, x1, y1] : section.edges) {
-        for_capsule_rows(x0, y0, x1, y1, radius_mm, pixel_mm, lowest, highest,
+        for_capsule_rows({x0, y0, x1, y1, radius_mm}, rows,
                          [&](int j, int i0, int i1) { bitmap.fill(j, i0, i1); });
     }
 }

@@ -23,7 +23,7 @@ TEST(Raster, ACapsuleHasTheAreaOfARectangleAndADisc) {
         Bitmap bitmap(Window::around(-200, -200, 200, 200));
         const double x = 8 * std::cos(turn);
         const double y = 8 * std::sin(turn);
-        for_capsule_rows(-x, -y, x, y, 1.5, kPixel, -200, 200,
+        for_capsule_rows({-x, -y, x, y, 1.5}, GridRows(bitmap.window(), kPixel),
                          [&](int j, int i0, int i1) { bitmap.fill(j, i0, i1); });
         EXPECT_NEAR(area_of(bitmap), 16 * 3 + std::numbers::pi * 1.5 * 1.5, 0.15) << turn;
     }
