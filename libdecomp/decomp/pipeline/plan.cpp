@@ -8,6 +8,7 @@
 #include "decomp/sections/trial_cut.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,11 +33,14 @@ constexpr double kOversize = 0.35;      // per natural logarithm of a violation'
 constexpr double kExtraOutline = 0.1;   // per piece beyond two: more joints to glue
 constexpr double kSharedBonus = 0.1;    // a plane that cuts a neighbour as well
 constexpr double kSmallShare = 0.1;     // of the volume of the whole: parts below are shards ...
-constexpr double kShardPenalty = 0.45;  // ... unless they hang on a neck
-constexpr double kFeatherWeight = 1.2;  // share of the rim that ends in a feather edge
+constexpr double kShardPenalty = 0.8;   // ... unless they hang on a neck
+constexpr double kFeatherWeight = 1.6;  // share of the rim that ends in a feather edge
 constexpr double kTopples = 0.5;        // a part that does not stand by itself
 constexpr double kInflation = 1.002;    // stand-ins are judged this much larger than they are
 constexpr double kTie = 1e-9;
+constexpr double kClearEvent = 0.3;  // strength from which a plane stays where its event is
+constexpr std::array<double, 8> kPolish{-0.06, -0.045, -0.03, -0.015,
+                                        0.015, 0.03,   0.045, 0.06};  // of the length
 constexpr int kMaxDepth = 10;
 constexpr int kMaxNodes =
     160;  // parts looked at in one search; what is beyond is estimated, and planned later
@@ -200,6 +204,34 @@ std::vector<Trial> most_promising(std::vector<Trial> trials, std::size_t count) 
     return out;
 }
 
+/// The trial or a better one between it and the planes tried beside it.
+Trial polished(const Node& node, const Trial& trial, const Search& search) {
+    if (trial.candidate.shared || trial.candidate.event >= kClearEvent) {
+        return trial;
+    }
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Eigen::Vector3d& point : node.part.mesh.points) {
+        low = std::min(low, trial.candidate.plane.normal.dot(point));
+        high = std::max(high, trial.candidate.plane.normal.dot(point));
+    }
+    const double needed = parts_needed(node.verdict);
+    std::array<std::optional<Trial>, kPolish.size()> slots;
+    for_each_index(search.run, kPolish.size(), [&](std::size_t i) {
+        Candidate shifted = trial.candidate;
+        shifted.plane.offset_mm += kPolish.at(i) * (high - low);
+        slots.at(i) = tried(node.part, shifted, needed, node.depth, search);
+        if (slots.at(i)) {
+            slots.at(i)->pieces.clear();
+        }
+    });
+    const Trial* best = &trial;
+    for (const std::optional<Trial>& slot : slots) {
+        best = slot && slot->estimate < best->estimate - kTie ? &*slot : best;
+    }
+    return *best;
+}
+
 std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search& search);
 
 void collect_planes(const PlannedCut& cut, std::vector<part::Plane>& planes) {
@@ -246,11 +278,13 @@ std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search&
         return nullptr;
     }
     const auto width = static_cast<std::size_t>(node.depth == 0   ? search.options.lookahead
-                                                : node.depth == 1 ? 2
+                                                : node.depth == 1 ? 3
+                                                : node.depth == 2 ? 2
                                                                   : 1);
     std::shared_ptr<PlannedCut> best;
     const std::vector<Trial> trials = most_promising(all_tried(node, search), width);
-    for (const Trial& trial : trials) {
+    for (const Trial& unpolished : trials) {
+        const Trial trial = polished(node, unpolished, search);
         const int share = (budget - 1) / static_cast<int>(trials.size());
         auto cut = std::make_shared<PlannedCut>(followed(node, trial, share, search));
         if (!best || cut->cost < best->cost - kTie) {
