@@ -9,6 +9,7 @@
 #include "decomp/base/file.h"
 #include "decomp/base/hash.h"
 #include "decomp/base/number.h"
+#include "decomp/cut/written.h"
 #include "decomp/io/orient.h"
 #include "decomp/io/part_ply.h"
 #include "decomp/io/read_mesh.h"
@@ -35,6 +36,20 @@ namespace {
 using Pose = decomp::Pose<decomp::PartBedFrame, decomp::ModelFrame>;
 
 constexpr double kExplode = 0.3;
+
+/// The STL of a part as it is printed. STL is float32, so the part is checked again after that
+/// rounding; programs are made from the doubles and do not depend on it.
+std::string stl_of(const TriMesh& printed, const std::string& id, const Run& run) {
+    const TriMesh rounded = decomp::cut::float_mesh(printed).mesh;
+    const decomp::cut::WrittenReport report = decomp::cut::check_written(rounded);
+    if (!report.sound()) {
+        run.warn("parts/" + id + ".stl: " +
+                 (report.intersections.empty() ? "touches itself along an edge"
+                                               : "rounding to float made triangles cross") +
+                 "; parts/" + id + ".ply and the program are exact");
+    }
+    return decomp::io::stl_bytes(rounded);
+}
 
 /// Turn and scale that to_model_frame() gave a mesh: the turn from the images of the unit points,
 /// the scale from the heights before and after.
@@ -189,7 +204,7 @@ Maker::Files Maker::make_parts(Run& run) {
                         "the part exceeds the machine: " + facts.violations.front(), part.id);
         }
         files.push_back({"parts/" + part.id + ".ply", decomp::io::part_ply_bytes(part)});
-        files.push_back({"parts/" + part.id + ".stl", decomp::io::stl_bytes(printed)});
+        files.push_back({"parts/" + part.id + ".stl", stl_of(printed, part.id, run)});
         job_.parts.push_back(std::move(facts));
     }
     return files;
