@@ -17,4 +17,7 @@ struct BeadSize {
     [[nodiscard]] double rounding_mm() const { return height_mm * (1.0 - std::numbers::pi / 4.0); }
 };
 
+/// Narrower strips than this get no bead, mm.
+inline constexpr double kLeastStripMm = 0.12;
+
 }  // namespace cam::fdm

@@ -28,7 +28,6 @@ constexpr double kSparseLinkSpacings = 1.5;  // sparse lines likewise, of their 
 constexpr double kInterfaceSpacings = 1.5;   // lines of support under the part, by bead spacings
 constexpr double kOutputToleranceMm = 0.004;
 constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
-constexpr double kLeastStripMm = 0.12;      // narrower strips are left to their neighbours
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
 constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
 constexpr double kFillOverlapRoundings = 1.5;

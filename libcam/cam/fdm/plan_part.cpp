@@ -43,6 +43,24 @@ std::vector<PartLayer> empty_layers(double height_mm, const Process& process) {
     }
 }
 
+/// The slice without islands that are too narrow everywhere to get a bead: nothing may rest on them
+/// or keep away from them.
+Paths printable(const Paths& slice) {
+    Paths out;
+    for (const polygon::Island& island : polygon::islands(slice)) {
+        const Paths loops = island.loops();
+        double around = 0;
+        for (const auto& loop : loops) {
+            around += polygon::perimeter_mm(loop);
+        }
+        const bool narrow = polygon::area_mm2(loops) < around * kLeastStripMm;
+        if (!narrow || !polygon::opened(loops, kLeastStripMm / 2).empty()) {
+            out.insert(out.end(), loops.begin(), loops.end());
+        }
+    }
+    return out;
+}
+
 decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, std::vector<PartLayer>& layers,
                            const decomp::Run& run) {
     std::vector<std::int64_t> heights;
@@ -54,9 +72,8 @@ decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, std::vector<PartLa
     if (!slices) {
         return decomp::fail(slices.error());
     }
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        layers[i].slice = std::move((*slices)[i]);
-    }
+    decomp::for_each_index(run, layers.size(),
+                           [&](std::size_t i) { layers[i].slice = printable((*slices)[i]); });
     return {};
 }
 

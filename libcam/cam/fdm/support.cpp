@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/fdm/support.h"
 
+#include "cam/fdm/bead_size.h"
 #include "cam/polygon/boolean.h"
 #include "cam/polygon/offset.h"
 #include "decomp/base/parallel.h"
@@ -38,6 +39,23 @@ struct Overhang {
     Paths islands;   ///< hangs on nothing
 };
 
+/// What of a region gets a bead.
+Paths printed(const Paths& region) { return polygon::opened(region, kLeastStripMm / 2); }
+
+/// Whether a piece of a layer has printed material of the layer below under it.
+bool lies_on(const Paths& piece, const Paths& below) {
+    const Paths lap = polygon::intersect(piece, below);
+    const double area = polygon::area_mm2(lap);
+    double around = 0;
+    for (const auto& loop : lap) {
+        around += polygon::perimeter_mm(loop);
+    }
+    if (area < kLeastIslandLapMm2 || area > around * kLeastStripMm) {
+        return area >= kLeastIslandLapMm2;
+    }
+    return polygon::area_mm2(printed(lap)) >= kLeastIslandLapMm2;
+}
+
 Paths grown(const Paths& region, double reach_mm) {
     return polygon::simplified(polygon::offset(region, reach_mm), kToleranceMm);
 }
@@ -52,7 +70,7 @@ Overhang overhang_of(const Paths& slice, const Paths& below, const Paths& carrie
     }
     for (const polygon::Island& island : polygon::islands(slice)) {
         const Paths loops = island.loops();
-        if (polygon::area_mm2(polygon::intersect(loops, below)) < kLeastIslandLapMm2) {
+        if (!lies_on(loops, below)) {
             out.islands.insert(out.islands.end(), loops.begin(), loops.end());
         }
     }

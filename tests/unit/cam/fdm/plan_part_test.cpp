@@ -100,6 +100,35 @@ TEST(PlanPart, EveryLayerOfASpireHasABead) {
     }
 }
 
+TEST(PlanPart, AFinThatStartsThinnerThanABeadIsSupportedWhereItCanBePrinted) {
+    // A blade hanging edge down beside a block: its lowest millimetre is too thin to print.
+    auto blade = tests::box({10, -5, 4}, {10.6, 5, 10});
+    for (auto& p : blade.points) {
+        if (p.z() < 5) {
+            p.x() = 10.3 + (p.x() - 10.3) * 0.02;
+        }
+    }
+    const auto part = tests::joined(tests::box({-5, -5, 0}, {5, 5, 12}),
+                                    tests::joined(blade, tests::box({0, -5, 9.9}, {12, 5, 12})));
+    const auto stack = plan_part(part, setup(), {});
+    ASSERT_TRUE(stack);
+    std::size_t first = 0;
+    const auto on_blade = [](const Bead& bead) {
+        return bead.feature == Feature::OuterWall && bead.points.front().x() > 9 &&
+               bead.width_mm < 0.3;
+    };
+    const auto has_blade = [&](const cam::path::Layer& layer) {
+        return std::any_of(layer.beads.begin(), layer.beads.end(), on_blade);
+    };
+    while (first < stack->layers.size() && !has_blade(stack->layers[first])) {
+        ++first;
+    }
+    ASSERT_GT(first, 20U);
+    ASSERT_LT(first, 45U);
+    auto below = count_features(stack->layers[first - 2]);
+    EXPECT_GT(below[Feature::SupportInterface], 0);
+}
+
 TEST(PlanPart, TopAndBottomAreSolidAndTheMiddleIsSparse) {
     const auto stack = plan_part(tests::box({-15, -15, 0}, {15, 15, 6.05}), setup(), {});
     ASSERT_TRUE(stack);

@@ -80,6 +80,15 @@ TEST(Support, AnIslandGetsAColumnEvenWithoutAnAngle) {
     }
 }
 
+TEST(Support, AStripTooNarrowToPrintCarriesNothing) {
+    auto slices = mast_with({rectangle({0, 0}, {10, 10}), rectangle({14, 0}, {14.3, 10})});
+    slices[9].push_back(rectangle({14, 0}, {14.05, 10}));
+    const auto areas = supports_of(slices);
+    for (std::size_t i = 0; i < 9; ++i) {
+        EXPECT_GT(total_mm2(areas[i]), 10) << i;
+    }
+}
+
 TEST(Support, AnIslandOverThePartStandsOnThePart) {
     std::vector<Paths> slices(kLayers, Paths{rectangle({0, 0}, {10, 10})});
     for (std::size_t i = 8; i < kLayers; ++i) {
