@@ -150,7 +150,7 @@ Status Maker::make_plate(std::size_t index) {
     }
     Status converted = stages_.run("convert " + plate.name, convert_key(plate), 0,
                                    with_run([&](Run& run) { return convert_program(plate, run); }));
-    if (!converted && converted.error().code == "convert.missing_program") {
+    if (!converted && converted.error().code == "post.converter_missing") {
         plate.converted.clear();
         run_.warn(program_path(plate) + " stays as it is: " + converted.error().message + "; " +
                   converted.error().hint);

