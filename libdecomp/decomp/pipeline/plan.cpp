@@ -38,6 +38,7 @@ constexpr double kFeatherWeight = 1.6;  // share of the rim that ends in a feath
 constexpr double kTopples = 0.5;        // a part that does not stand by itself
 constexpr double kInflation = 1.002;    // stand-ins are judged this much larger than they are
 constexpr double kTie = 1e-9;
+constexpr double kNothing = 1e-7;    // of the volume
 constexpr double kClearEvent = 0.3;  // strength from which a plane stays where its event is
 constexpr std::array<double, 8> kPolish{-0.06, -0.045, -0.03, -0.015,
                                         0.015, 0.03,   0.045, 0.06};  // of the length
@@ -124,6 +125,14 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
         above += piece.above ? piece.volume_mm3 : 0;
         interface += piece.interface_mm2 / 2;
     }
+    // Along a face that is there already, rounding gives pieces of nothing.
+    const bool grazes = std::any_of(
+        trial.pieces.begin(), trial.pieces.end(), [&](const sections::TrialPiece& piece) {
+            return piece.volume_mm3 <= kNothing * volume || piece.interface_mm2 <= 0;
+        });
+    if (grazes) {
+        return std::nullopt;
+    }
     bool progress = true;
     for (const sections::TrialPiece& piece : trial.pieces) {
         trial.verdicts.push_back(search.judge(piece.part, part::Fidelity::Estimate));
@@ -137,7 +146,7 @@ std::optional<Trial> tried(const part::Part& part, const Candidate& candidate, d
         progress = progress && (verdict.ok() || piece.volume_mm3 < 0.9 * volume ||
                                 pieces_needed < needed - 0.05);
     }
-    if (!progress || volume <= 0) {
+    if (!progress) {
         return std::nullopt;
     }
     const double imbalance = unevenness(above / volume, trial.estimate);

@@ -5,8 +5,7 @@
 #include "decomp/base/rng.h"
 #include "decomp/mesh/check.h"
 #include "decomp/mesh/measure.h"
-#include "decomp/pipeline/nudge.h"
-#include "decomp/pipeline/proxy.h"
+#include "tests/property/decomp/pipeline/sound.h"
 #include "tests/support/shapes.h"
 
 #include <Eigen/Geometry>
@@ -23,47 +22,8 @@ using decomp::pipeline::decompose;
 using decomp::pipeline::DecomposeOptions;
 using decomp::pipeline::Decomposition;
 
-cam::profile::FdmSetup printer(double x, double y, double z) {
-    cam::profile::FdmSetup setup;
-    setup.machine.chamber.min_mm = {-x / 2, -y / 2, 0};
-    setup.machine.chamber.max_mm = {x / 2, y / 2, z};
-    setup.machine.process.brim_width_mm = 3;
-    return setup;
-}
-
-/// Decomposes and asserts what must hold for every result.
-Decomposition sound(const TriMesh& volume, const cam::profile::FdmSetup& setup, int jobs = 2) {
-    decomp::Run run;
-    run.jobs = jobs;
-    const Result<Decomposition> result = decompose(volume, {}, cam::orient::fdm_judge(setup), run);
-    EXPECT_TRUE(result.has_value()) << result.error().text();
-    if (!result) {
-        return {};
-    }
-    double sum = 0;
-    const Eigen::Vector3d usable = cam::orient::usable_mm(setup.machine);
-    EXPECT_EQ(result->poses.size(), result->assembly.parts.size());
-    for (std::size_t i = 0; i < result->assembly.parts.size(); ++i) {
-        const auto& part = result->assembly.parts[i];
-        sum += decomp::mesh::volume_mm3(part.mesh);
-        EXPECT_TRUE(decomp::mesh::check_topology(part.mesh).manifold()) << part.id;
-        EXPECT_TRUE(result->verdicts[i].ok()) << part.id;
-        const Eigen::Vector3d size =
-            decomp::mesh::bounds(cam::orient::placed(part, result->poses[i])).sizes();
-        EXPECT_TRUE((size.array() <= usable.array() + 1e-9).all())
-            << part.id << ": " << size.transpose();
-    }
-    const double volume_mm3 = decomp::mesh::volume_mm3(volume);
-    EXPECT_NEAR(sum, volume_mm3, 1e-9 * volume_mm3);
-    return *result;
-}
-
-TEST(Decompose, WhatFitsStaysInOnePiece) {
-    const auto result = sound(tests::sphere(20, 32, 17), printer(60, 60, 60));
-    EXPECT_EQ(result.assembly.parts.size(), 1U);
-    EXPECT_EQ(result.cuts, 0);
-    EXPECT_EQ(result.tier, "T4");
-}
+using tests::printer;
+using tests::sound;
 
 TEST(Decompose, ATallBoxIsHalved) {
     const auto result = sound(tests::box({0, 0, 0}, {40, 40, 100}), printer(60, 60, 60));
@@ -101,7 +61,7 @@ TEST(Decompose, ARandomlyTurnedDumbbellIsCutWithinTwoPercentOfItsNeck) {
 }
 
 TEST(Decompose, ATorusIsAnExactPartition) {
-    const auto result = sound(tests::torus(50, 12, 64, 32), printer(90, 90, 60));
+    const auto result = sound(tests::torus(50, 12, 32, 16), printer(90, 90, 60));
     EXPECT_GE(result.assembly.parts.size(), 2U);
     EXPECT_LE(result.assembly.parts.size(), 4U);
 }
@@ -130,7 +90,7 @@ TEST(Decompose, AThinPlateIsCutAcrossNotThrough) {
 }
 
 TEST(Decompose, TheNumberOfJobsDoesNotChangeTheResult) {
-    const auto shape = tests::torus(50, 12, 48, 24);
+    const auto shape = tests::torus(50, 12, 24, 12);
     const auto one = sound(shape, printer(90, 90, 60), 1);
     const auto two = sound(shape, printer(90, 90, 60), 2);
     ASSERT_EQ(one.assembly.parts.size(), two.assembly.parts.size());
@@ -150,50 +110,6 @@ TEST(Decompose, TooManyPartsIsAnErrorThatSaysWhatToTry) {
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().code, "decompose.too_many_parts");
     EXPECT_FALSE(result.error().hint.empty());
-}
-
-TEST(Decompose, AJudgeThatIsNeverContentEndsInAnError) {
-    decomp::Run run;
-    DecomposeOptions options;
-    options.max_parts = 4;
-    const decomp::part::Judge never = [](const decomp::part::Part&, decomp::part::Fidelity) {
-        decomp::part::Verdict verdict;
-        verdict.violations = {{"anything", 2}};
-        return verdict;
-    };
-    const auto result = decompose(tests::box({0, 0, 0}, {10, 10, 10}), options, never, run);
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, "decompose.too_many_parts");
-}
-
-TEST(Decompose, ACancelledRunSaysSo) {
-    decomp::Run run;
-    std::stop_source source;
-    run.stop = source.get_token();
-    source.request_stop();
-    const auto result = decompose(tests::box({0, 0, 0}, {40, 40, 400}), {},
-                                  cam::orient::fdm_judge(printer(60, 60, 60)), run);
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, "run.cancelled");
-}
-
-TEST(Nudge, APlaneThroughVerticesMovesHalfAStepAwayAndNoFurtherThanNeeded) {
-    const auto box = tests::box({0, 0, 0}, {1, 1, 1});
-    const auto plane = decomp::pipeline::nudged({{0, 0, 1}, 1}, box, 0.01);
-    EXPECT_NEAR(plane.offset_mm, 1.01, 1e-12);
-    EXPECT_EQ(decomp::pipeline::nudged({{0, 0, 1}, 0.5}, box, 0.01).offset_mm, 0.5);
-}
-
-TEST(Proxy, ASimplifiedBallKeepsItsVolumeAndItsTopology) {
-    decomp::part::Part ball;
-    ball.mesh = tests::sphere(20, 160, 99);
-    ball.sources.resize(ball.mesh.triangles.size());
-    const auto proxy = decomp::pipeline::simplified(ball, 2000);
-    EXPECT_LT(proxy.mesh.triangles.size(), 2600U);
-    EXPECT_EQ(proxy.sources.size(), proxy.mesh.triangles.size());
-    EXPECT_TRUE(decomp::mesh::check_topology(proxy.mesh).manifold());
-    EXPECT_NEAR(decomp::mesh::volume_mm3(proxy.mesh) / decomp::mesh::volume_mm3(ball.mesh), 1,
-                1e-2);
 }
 
 }  // namespace
