@@ -31,21 +31,26 @@ double capsule(const Vector3d& p, const Vector3d& a, const Vector3d& b, double r
     return (p - a - t * (b - a)).norm() - radius;
 }
 
-double drum(const Vector3d& p, double bottom, double top, double radius) {
-    const double side = std::hypot(p.x(), p.y()) - radius;
-    return std::max({side, bottom - p.z(), p.z() - top});
-}
-
 /// The union of two shapes with a fillet of about `blend`.
 double unite(double a, double b, double blend) {
     const double h = std::max(blend - std::abs(a - b), 0.0) / blend;
     return std::min(a, b) - h * h * blend / 4;
 }
 
+/// An upright cylinder with rounded rims.
+double drum(const Vector3d& p, double bottom, double top, double radius) {
+    constexpr double kRimMm = 8;
+    const double side = std::hypot(p.x(), p.y()) - radius + kRimMm;
+    const double height = std::abs(p.z() - (bottom + top) / 2) - (top - bottom) / 2 + kRimMm;
+    return std::min(std::max(side, height), 0.0) +
+           std::hypot(std::max(side, 0.0), std::max(height, 0.0)) - kRimMm;
+}
+
 double carve(double a, double b, double blend) { return -unite(-a, b, blend); }
 
-/// y points forward, x to the statue's left.
-double statue(const Vector3d& p) {
+/// The statue faces -y, towards a viewer at the front.
+double statue(const Vector3d& seen) {
+    const Vector3d p(-seen.x(), -seen.y(), seen.z());
     const Vector3d m(std::abs(p.x()), p.y(), p.z());  // what both sides have
     double head = ellipsoid(p, {0, 0, 338}, {56, 68, 78});
     head = unite(head, ellipsoid(p, {0, 22, 292}, {40, 42, 40}), 24);   // jaw
@@ -61,16 +66,31 @@ double statue(const Vector3d& p) {
     double body = capsule(p, {0, -8, 214}, {0, -2, 292}, 34);               // neck
     body = unite(body, ellipsoid(p, {0, -6, 168}, {96, 56, 70}), 34);       // chest
     body = unite(body, ellipsoid(m, {86, -8, 180}, {44, 46, 44}), 30);      // shoulder
-    body = unite(body, capsule(p, {-62, 42, 212}, {58, 48, 122}, 12), 12);  // sash
-    body = std::max(body, 92 - p.z() + 0.004 * m.x() * m.x());
-    double foot = drum(p, 0, 18, 88);
-    foot = unite(foot, drum(p, 10, 70, 54 + 10 * std::cos(std::numbers::pi * p.z() / 70)), 10);
-    foot = unite(foot, drum(p, 62, 110, 60), 16);
+    body = unite(body, capsule(p, {-66, 30, 214}, {46, 36, 136}, 12), 14);  // sash
+    body = -unite(-body, p.z() - 96, 12);
+    double foot = drum(p, -5, 18, 88);
+    foot = unite(foot, drum(p, 0, 76, 54 + 10 * std::cos(std::numbers::pi * p.z() / 70)), 10);
+    foot = unite(foot, drum(p, 64, 118, 64), 16);
     return std::max(unite(unite(head, body, 16), foot, 14), -p.z());
 }
 
 /// What a corner exactly on the surface gets instead of 0, in cells.
 constexpr double kOffSurface = 1e-9;
+
+/// Where the surface crosses the edge from a (where the value is at_a) to b, by bisection; kept off
+/// the ends so that no triangle becomes a sliver.
+Vector3d crossing(const Vector3d& a, const Vector3d& b, double at_a) {
+    constexpr int kHalvings = 20;
+    constexpr double kLeast = 0.06;
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = (low + high) / 2;
+        const bool before = (statue(a + middle * (b - a)) < 0) == (at_a < 0);
+        (before ? low : high) = middle;
+    }
+    return a + std::clamp((low + high) / 2, kLeast, 1 - kLeast) * (b - a);
+}
 
 /// A grid of cubes, each cut into six tetrahedra around its diagonal (Kuhn 1960), so that
 /// neighbours share faces and the surface of {value < 0} is closed and manifold wherever no corner
@@ -175,8 +195,6 @@ class Sampler {
         }
     }
 
-    /// The point where the surface crosses an edge, kept off its ends so that no triangle becomes a
-    /// sliver.
     std::uint32_t cut(Corner a, Corner b) {
         if (a > b) {
             std::swap(a, b);
@@ -184,8 +202,7 @@ class Sampler {
         const auto [it, added] =
             cuts_.try_emplace({a, b}, static_cast<std::uint32_t>(mesh_.points.size()));
         if (added) {
-            const double t = std::clamp(values_[a] / (values_[a] - values_[b]), 0.1, 0.9);
-            mesh_.points.push_back(position(a) + t * (position(b) - position(a)));
+            mesh_.points.push_back(crossing(position(a), position(b), values_[a]));
         }
         return it->second;
     }
