@@ -114,7 +114,10 @@ TEST(Make, ChangedOptionsGiveWhatACleanRunGives) {
     const std::string bar = long_bar(dir);
     ASSERT_EQ(hew(quick_make(bar, dir / "out")).exit_code, 0);
     const std::vector<std::string> other{"--set", "process.perimeters=2"};
-    ASSERT_EQ(hew(with(quick_make(bar, dir / "out"), other)).exit_code, 0);
+    const auto again = hew(with(with(quick_make(bar, dir / "out"), other), {"--json"}));
+    ASSERT_EQ(again.exit_code, 0);
+    // Model, parts, picture and assembly do not depend on the walls.
+    EXPECT_GE(tests::object_of(again)["stages_kept"].get<int>(), 4);
     ASSERT_EQ(hew(with(quick_make(bar, dir / "clean"), other)).exit_code, 0);
     EXPECT_EQ(contents(dir / "out"), contents(dir / "clean"));
 }
@@ -130,6 +133,44 @@ TEST(Make, DecomposeStopsAtThePartsAndMakeContinues) {
     const auto run = hew(with(words, {"--json"}));
     ASSERT_EQ(run.exit_code, 0);
     EXPECT_GE(tests::object_of(run)["stages_kept"].get<int>(), 4);
+}
+
+/// Whether a program is on the search path.
+bool is_installed(const std::string& program) {
+    return tests::run_program({"/bin/sh", "-c", "command -v " + program}).exit_code == 0;
+}
+
+std::vector<std::string> make_for_flashforge(const tests::TempDir& dir) {
+    return {"make",      tests::write_stl(dir, "tile.stl", tests::block(30, 30, 3)),
+            "--machine", "flashforge-creator-pro",
+            "-o",        (dir / "out").string()};
+}
+
+TEST(Make, TheConvertedProgramLiesBesideTheProgramAndBearsItsName) {
+    if (!is_installed("gpx")) {
+        GTEST_SKIP() << "gpx is not installed";
+    }
+    const tests::TempDir dir;
+    ASSERT_EQ(hew(make_for_flashforge(dir)).exit_code, 0);
+    const auto bytes = decomp::read_file(dir.path() / "out/plates/plate-1.x3g");
+    ASSERT_TRUE(bytes);
+    EXPECT_NE(bytes->find("plate-1"), std::string::npos);
+    EXPECT_EQ(bytes->find(".hew"), std::string::npos);
+}
+
+TEST(Make, WithoutTheConverterTheProgramStaysAndAWarningIsGiven) {
+    const tests::TempDir dir;
+    auto words = make_for_flashforge(dir);
+    words.insert(words.begin(), {"/usr/bin/env", "PATH=/nonexistent", HEW_PROGRAM});
+    const auto run = tests::run_program(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("gpx"), std::string::npos) << run.err;
+    EXPECT_TRUE(fs::exists(dir.path() / "out/plates/plate-1.gcode"));
+    EXPECT_FALSE(fs::exists(dir.path() / "out/plates/plate-1.x3g"));
+    if (is_installed("gpx")) {
+        ASSERT_EQ(hew(make_for_flashforge(dir)).exit_code, 0);
+        EXPECT_TRUE(fs::exists(dir.path() / "out/plates/plate-1.x3g"));
+    }
 }
 
 TEST(Slice, APartOfAJobGetsAProgramOfItsOwn) {

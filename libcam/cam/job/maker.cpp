@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/job/maker_detail.h"
 #include "cam/job/report.h"
+#include "cam/orient/choose_build.h"
 #include "cam/verify/proof_json.h"
 #include "decomp/base/hash.h"
 #include "decomp/base/number.h"
@@ -57,9 +58,12 @@ StageKey Maker::model_key() const {
 StageKey Maker::parts_key() const {
     StageKey key("parts", kPartsRevision);
     key.add("model", stages_.hash_of("model.ply"))
-        .add("profile", setup_.hash)
         .add("max_parts", std::to_string(job_.options.max_parts))
         .add("seed", std::to_string(job_.options.seed));
+    // Not the whole profile: another material or infill leaves the parts as they are.
+    for (const double value : orient::judged_values(setup_.machine)) {
+        key.add("judged", value);
+    }
     return key;
 }
 

@@ -165,6 +165,9 @@ Maker::Files Maker::make_model(Run& run) {
     facts.triangles = repaired->mesh.triangles.size();
     facts.volume_mm3 = decomp::mesh::volume_mm3(repaired->mesh);
     facts.extent_mm = decomp::mesh::bounds(repaired->mesh).sizes();
+    for (const std::string& change : facts.repair_changes) {
+        run.info("repair: " + change);
+    }
     job_.model = std::move(facts);
     return std::vector<FileBytes>{{"model.ply", decomp::io::ply_bytes(repaired->mesh)}};
 }
@@ -181,6 +184,9 @@ Maker::Files Maker::make_parts(Run& run) {
     }
     job_.decomposition = {decomposed->tier, decomposed->cuts, decomposed->assembly.planes,
                           decomposed->assembly.interfaces, decomposed->notes};
+    for (const std::string& note : decomposed->notes) {
+        run.info("decomposition: " + note);
+    }
     job_.parts.clear();
     std::vector<FileBytes> files;
     for (std::size_t i = 0; i < decomposed->assembly.parts.size(); ++i) {
@@ -314,17 +320,13 @@ Maker::Files Maker::prove(PlateFacts& plate, Run& run) const {
 Maker::Files Maker::convert_program(PlateFacts& plate, Run& run) const {
     const auto& converter = setup_.machine.converter;
     const std::string path = "plates/" + plate.name + "." + converter.extension;
-    // Under a name that remove_leftovers() knows, until the stage is recorded.
-    const auto temporary =
-        request_.directory / "plates" / (".hew-" + plate.name + "." + converter.extension);
-    const auto done =
-        post::convert(request_.directory / program_path(plate), temporary, converter, run);
+    // Straight to its final name, which converters like to write into the file; convert() renames.
+    const auto done = post::convert(request_.directory / program_path(plate),
+                                    request_.directory / path, converter, run);
     if (!done) {
         return fail(done.error());
     }
-    auto bytes = decomp::read_file(temporary);
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+    auto bytes = decomp::read_file(request_.directory / path);
     if (!bytes) {
         return fail(bytes.error());
     }

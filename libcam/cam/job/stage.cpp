@@ -215,12 +215,13 @@ void remove_leftovers(const fs::path& directory) {
     std::vector<fs::path> leftovers;
     for (fs::recursive_directory_iterator it(directory, error), end; !error && it != end;
          it.increment(error)) {
-        if (it->path().filename().string().starts_with(".hew-") && it->is_regular_file(error)) {
+        if (it->path().filename().string().starts_with(".hew-")) {
             leftovers.push_back(it->path());
+            it.disable_recursion_pending();
         }
     }
     for (const fs::path& leftover : leftovers) {
-        remove_file(leftover);
+        fs::remove_all(leftover, error);
     }
 }
 

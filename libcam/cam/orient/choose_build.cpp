@@ -299,6 +299,11 @@ Eigen::Vector3d usable_mm(const profile::FdmMachine& machine) {
     return usable;
 }
 
+std::array<double, 4> judged_values(const profile::FdmMachine& machine) {
+    const Eigen::Vector3d usable = usable_mm(machine);
+    return {usable.x(), usable.y(), usable.z(), machine.process.support_angle.radians()};
+}
+
 std::vector<BuildChoice> rank_builds(const Part& part, const profile::FdmMachine& machine) {
     return ranked(part, machine, Flats::Sought);
 }

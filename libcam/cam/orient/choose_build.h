@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace cam::orient {
@@ -39,6 +40,10 @@ struct BuildChoice {
 /// What a part may measure in X, Y (footprint without border) and Z, once border, margin, lift and
 /// the rounding to whole layers are taken off the chamber.
 [[nodiscard]] Eigen::Vector3d usable_mm(const profile::FdmMachine& machine);
+
+/// Everything of a machine on which rank_builds() and fdm_judge() depend: equal values, equal
+/// builds. Whoever keeps a decomposition keeps these with it.
+[[nodiscard]] std::array<double, 4> judged_values(const profile::FdmMachine& machine);
 
 /// All poses worth a look, best first: those that fit, then stable ones, then flat faces before
 /// axes, then the least support; ties by height, base area and order of discovery. Each is turned

@@ -136,8 +136,11 @@ TEST_F(Stages, ADirectoryServesOneRunAtATime) {
 TEST_F(Stages, LeftoversOfAKilledRunAreRemovedAndNothingElse) {
     fs::create_directories(dir_ / "plates");
     std::ofstream(dir_.path() / "plates/.hew-plate-1.gcode-abcdef") << "half";
+    fs::create_directories(dir_.path() / "plates/.hew-convert-abcdef");
+    std::ofstream(dir_.path() / "plates/.hew-convert-abcdef/plate-1.x3g") << "half";
     std::ofstream(dir_.path() / "notes.txt") << "mine";
     cam::job::remove_leftovers(dir_.path());
+    EXPECT_FALSE(fs::exists(dir_.path() / "plates/.hew-convert-abcdef"));
     EXPECT_FALSE(fs::exists(dir_.path() / "plates/.hew-plate-1.gcode-abcdef"));
     EXPECT_TRUE(fs::exists(dir_ / "notes.txt"));
 }
