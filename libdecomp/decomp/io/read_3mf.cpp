@@ -15,8 +15,9 @@ namespace {
 using Handle = Lib3mfHandle<&NMR::lib3mf_release>;
 
 constexpr std::uint64_t kMostUnpackedBytes = 2'000'000'000;
-constexpr int kDeepest = 32;                         // components within components
-constexpr std::size_t kMostTriangles = 100'000'000;  // over all instances
+constexpr int kDeepest = 32;  // components within components
+constexpr std::size_t kMostInstances = 100'000;
+constexpr std::size_t kMostTriangles = 50'000'000;  // over all instances
 
 double length_of_unit_mm(DWORD unit) {
     switch (unit) {
@@ -102,6 +103,11 @@ class PackageReader {
     }
 
     decomp::Status add_object(const Handle& object, const Eigen::Affine3d& placed, int depth) {
+        // A few nested components name exponentially many instances.
+        if (++instances_ > kMostInstances) {
+            return fail("io.too_large", "more than 100 000 instances of objects",
+                        std::string(name_));
+        }
         BOOL is_mesh = 0;
         if (NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh) != 0) {
             return refused(object);
@@ -142,7 +148,7 @@ class PackageReader {
         }
         if (mesh_.triangles.size() + faces > kMostTriangles ||
             mesh_.points.size() + points > kMostTriangles) {
-            return fail("io.too_large", "more than 100 million triangles over all instances",
+            return fail("io.too_large", "more than 50 million triangles over all instances",
                         std::string(name_));
         }
         std::vector<NMR::MODELMESHVERTEX> vertices(points);
@@ -181,6 +187,7 @@ class PackageReader {
 
     std::string_view name_;
     Handle model_;
+    std::size_t instances_ = 0;
     mesh::TriMesh mesh_;
 };
 

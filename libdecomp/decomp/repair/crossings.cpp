@@ -4,6 +4,7 @@
 #include "decomp/repair/distance.h"
 #include "decomp/repair/holes.h"
 #include "decomp/repair/intersect.h"
+#include "decomp/repair/resolve.h"
 #include "decomp/repair/soup.h"
 #include "decomp/repair/unite.h"
 #include "decomp/repair/untangle.h"
@@ -60,6 +61,23 @@ bool mend(Work& work, std::size_t pairs) {
     return true;
 }
 
+/// Cuts a shell that crosses itself along the crossings and keeps the boundary of what it winds
+/// around.
+bool resolve(Work& work, std::size_t pairs) {
+    Result<mesh::TriMesh> resolved = resolve_crossings(work.mesh);
+    if (!resolved || resolved->triangles.empty() || !remove_slivers(*resolved) ||
+        !mesh::check_topology(*resolved).manifold() || !self_intersections(*resolved, 1).empty()) {
+        return false;
+    }
+    const double before = mesh::volume_mm3(work.mesh);
+    work.mesh = std::move(*resolved);
+    work.change(Status::United, "cut shells that cross themselves, in " + counted(pairs, "pair") +
+                                    " of triangles, and kept the outside: volume " +
+                                    figure(before) + " -> " + figure(mesh::volume_mm3(work.mesh)) +
+                                    " mm^3, overlaps counted once");
+    return true;
+}
+
 /// Rounding may have made points equal or triangles flat.
 bool tidy_after_union(Work& work) {
     weld(work.mesh);
@@ -99,10 +117,12 @@ Result<bool> unite(Work& work) {
 
 Result<bool> remove_crossings(Work& work) {
     Crossings count = count_crossings(work.mesh);
-    if (count.within > 0 && !mend(work, count.within)) {
+    if (count.within > 0 && !mend(work, count.within) &&
+        !resolve(work, count.within + count.between)) {
         return work.needs_wrap("a shell crosses itself in " + counted(count.within, "pair") +
                                " of triangles");
     }
+    count = count.within > 0 ? count_crossings(work.mesh) : count;
     if (count.between > 0) {
         const Result<bool> united = unite(work);
         if (!united || !*united) {

@@ -3,11 +3,22 @@
 
 #include "decomp/mesh/tri_mesh.h"
 
+#include <type_traits>
 #include <vector>
 
 /// Between TriMesh and a halfedge mesh in CGAL's style; the kernel's headers stay in the .cpp
 /// files.
 namespace decomp::repair {
+
+/// A coordinate as double, also of a kernel with numbers of its own.
+template <class Number>
+[[nodiscard]] double number(const Number& value) {
+    if constexpr (std::is_same_v<Number, double>) {
+        return value;
+    } else {
+        return to_double(value);
+    }
+}
 
 /// False when the triangles do not form an oriented manifold (with or without border).
 template <class Surface>
@@ -38,7 +49,7 @@ template <class Surface>
     for (const auto vertex : surface.vertices()) {
         index[vertex] = static_cast<std::uint32_t>(mesh.points.size());
         const auto& p = surface.point(vertex);
-        mesh.points.emplace_back(p.x(), p.y(), p.z());
+        mesh.points.emplace_back(number(p.x()), number(p.y()), number(p.z()));
     }
     for (const auto face : surface.faces()) {
         mesh::Triangle triangle{};

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace {
 
 using decomp::mesh::TriMesh;
@@ -178,6 +180,50 @@ TEST(Repair, ABoxWhoseEdgeLiesInAnothersFaceIsShrunkByAHairOrUnited) {
     EXPECT_EQ(result.report.status, Status::United);
     EXPECT_NEAR(result.report.volume_after_mm3, 120 + 4, 1e-3);
     EXPECT_LT(result.report.hausdorff_mm, 1e-3);
+}
+
+TEST(Repair, AFewCrossingsOfASmallFoldAreMendedLocally) {
+    TriMesh sphere = tests::sphere(10, 40, 20);
+    const double whole = decomp::mesh::volume_mm3(sphere);
+    sphere.points[406] += 1.2 * (sphere.points[408] - sphere.points[406]);
+    const Repaired result = repaired(sphere);
+    EXPECT_EQ(result.report.status, Status::Fixed);
+    EXPECT_NEAR(result.report.volume_after_mm3, whole, 1e-3 * whole);
+    EXPECT_LT(result.report.hausdorff_mm, 0.2);
+}
+
+TEST(Repair, ATubeThatRunsIntoItselfIsCutAndItsOutsideKept) {
+    // A tube along a spiral of 1.1 turns, closed by two fans: its end overlaps its beginning.
+    constexpr std::uint32_t kSections = 45;
+    constexpr std::uint32_t kRound = 12;
+    TriMesh tube;
+    for (std::uint32_t i = 0; i < kSections; ++i) {
+        const double u = 2.2 * std::numbers::pi * i / (kSections - 1);
+        for (std::uint32_t j = 0; j < kRound; ++j) {
+            const double v = 2 * std::numbers::pi * (j + 0.3) / kRound;
+            const double r = 10 + 0.35 * u + 3 * std::cos(v);
+            tube.points.emplace_back(r * std::cos(u), r * std::sin(u), 3 * std::sin(v) + 0.05 * u);
+        }
+    }
+    for (std::uint32_t i = 0; i + 1 < kSections; ++i) {
+        for (std::uint32_t j = 0; j < kRound; ++j) {
+            const std::uint32_t a = i * kRound + j;
+            const std::uint32_t b = i * kRound + (j + 1) % kRound;
+            tube.triangles.push_back({a, a + kRound, b + kRound});
+            tube.triangles.push_back({a, b + kRound, b});
+        }
+    }
+    const std::uint32_t last = (kSections - 1) * kRound;
+    for (std::uint32_t j = 1; j + 1 < kRound; ++j) {
+        tube.triangles.push_back({0, j, j + 1});
+        tube.triangles.push_back({last, last + j + 1, last + j});
+    }
+    const double twice = decomp::mesh::volume_mm3(tube);
+    const Repaired result = repaired(tube);
+    EXPECT_EQ(result.report.status, Status::United);
+    EXPECT_EQ(result.report.hausdorff_mm, 0);
+    EXPECT_LT(result.report.volume_after_mm3, twice);
+    EXPECT_GT(result.report.volume_after_mm3, 0.9 * twice);
 }
 
 TEST(Repair, ALooseSheetBesideABodyIsRemoved) {
