@@ -10,14 +10,19 @@
 #include "decomp/repair/untangle.h"
 #include "decomp/repair/work.h"
 
+#include <algorithm>
+
 namespace decomp::repair {
 
 namespace {
 
 constexpr std::size_t kFewCrossings = 400;         // pairs that are mended locally
 constexpr std::size_t kMostCrossings = 2'000'000;  // pairs beyond which nobody counts
-constexpr double kLargestMendedShift = 0.01;       // of the diagonal
-constexpr double kLargestMendedVolume = 0.01;      // of the volume
+// Two sheets cross along a line, in few pairs for their size; a tangle of many sheets, which exact
+// cutting would chew for minutes, shows in more pairs than half the triangles.
+constexpr std::size_t kAlwaysCut = 50;
+constexpr double kLargestMendedShift = 0.01;   // of the diagonal
+constexpr double kLargestMendedVolume = 0.01;  // of the volume
 
 struct Crossings {
     std::size_t within = 0;   ///< pairs of triangles of one shell
@@ -64,6 +69,9 @@ bool mend(Work& work, std::size_t pairs) {
 /// Cuts a shell that crosses itself along the crossings and keeps the boundary of what it winds
 /// around.
 bool resolve(Work& work, std::size_t pairs) {
+    if (pairs > std::max(kAlwaysCut, work.mesh.triangles.size() / 2)) {
+        return false;
+    }
     Result<mesh::TriMesh> resolved = resolve_crossings(work.mesh);
     if (!resolved || resolved->triangles.empty() || !remove_slivers(*resolved) ||
         !mesh::check_topology(*resolved).manifold() || !self_intersections(*resolved, 1).empty()) {
