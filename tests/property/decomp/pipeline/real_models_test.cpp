@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <string>
 
 namespace {
@@ -20,6 +21,9 @@ struct Case {
     std::optional<double> height_mm;
     std::size_t most_parts;
 };
+
+/// So that a test is listed by its file, the same in every build.
+void PrintTo(const Case& one, std::ostream* out) { *out << one.file; }
 
 class RealModel : public testing::TestWithParam<Case> {};
 
