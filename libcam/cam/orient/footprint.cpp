@@ -242,7 +242,7 @@ Turned best_turn(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d
     }
     Calipers straight_on(hull);
     for (const double angle : {0.0, kHalfTurn / 2}) {
-        const Turned straight = turned(straight_on, room, angle);
+        Turned straight = turned(straight_on, room, angle);
         if (straight.fits() && straight.size.prod() <= kUnturnedBonus * smallest.size.prod()) {
             return straight;
         }
