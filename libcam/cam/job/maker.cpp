@@ -24,7 +24,7 @@ constexpr double kRestWeight = 5;
 
 /// Every body gets a Run of its own to hand down.
 StageRunner::Body with_run(auto body) {
-    return [body](const Run& run) mutable {
+    return [body = std::move(body)](const Run& run) mutable {
         Run own = run;
         return body(own);
     };
