@@ -33,12 +33,12 @@ StageRunner::Body with_run(auto body) {
 }  // namespace
 
 Maker::Maker(const MakeRequest& request, profile::FdmSetup setup, std::string model_bytes,
-             JobFile& job, const Run& run)
+             JobFile& job, Run run)
     : request_(request),
       setup_(std::move(setup)),
       model_bytes_(std::move(model_bytes)),
       job_(job),
-      run_(run),
+      run_(std::move(run)),
       stages_(request.directory, job, run_) {
     run_.seed = request.options.seed;
 }

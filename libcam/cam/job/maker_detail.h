@@ -18,7 +18,7 @@ namespace cam::job {
 class Maker {
   public:
     Maker(const MakeRequest& request, profile::FdmSetup setup, std::string model_bytes,
-          JobFile& job, const decomp::Run& run);
+          JobFile& job, decomp::Run run);
 
     /// Runs all stages of the extent and finishes the job.
     [[nodiscard]] decomp::Status make_all();
