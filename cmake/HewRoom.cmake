@@ -48,6 +48,6 @@ function(hew_room_test library room)
   target_compile_options(${target} PRIVATE -Wall -Wextra -ffp-contract=off)
   target_compile_definitions(${target} PRIVATE HEW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE ${library}::${room} ${SUITE_ROOMS} ${SUITE_LIBRARIES} GTest::gtest_main)
-  gtest_discover_tests(${target} TEST_PREFIX "${library}/${room}/" DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${SUITE_LABEL}" TIMEOUT ${SUITE_TIMEOUT})
+  gtest_discover_tests(${target} TEST_PREFIX "${library}/${room}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST
+                       DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${SUITE_LABEL}" TIMEOUT ${SUITE_TIMEOUT})
 endfunction()
