@@ -239,8 +239,8 @@ void judge_missing_layers(const Scene& scene, const std::vector<LevelReport>& re
                     height > 0 ? below + height / 2 : (below + level.z - usual) / 2;
                 height = usual;
                 if (printable(slicer, middle)) {
-                    missing(below, level.z - reports[k].height_mm,
-                            climb_between(below, level.z, level.first_line), layer + 1);
+                    missing(below, level.z - usual, climb_between(below, level.z, level.first_line),
+                            layer + 1);
                 }
             }
             height = std::min(reports[k].height_mm, step > 0 ? step : reports[k].height_mm);

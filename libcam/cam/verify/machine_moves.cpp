@@ -146,6 +146,9 @@ void Machine::go(const std::array<double, 3>& to, const std::array<bool, 3>& giv
             sight("proof.below_printed", "the nozzle goes " + figure(depth) +
                                              " mm below material that is printed already, " +
                                              figure(limits::kBelowSlackMm) + " mm is allowed");
+            if (was_known && !out_.sightings.empty() && out_.sightings.back().line == line_) {
+                out_.sightings.back().z = std::max(from.z(), end.z());  // the layer it dives from
+            }
         }
     }
 }

@@ -75,6 +75,9 @@ TEST(SeededFault, ALayerWithoutExtrusionIsMissedAndItsFilamentIsABlob) {
     const PrintedBox printed = print_box(print);
     const Proof proof = prove(printed, {box_part(print)});
     expect_fault(proof, "proof.missing_layer", printed, 8);
+    EXPECT_NE(find(proof, "proof.missing_layer")->text.find("between z 1.6 and 1.8 mm"),
+              std::string::npos)
+        << told(proof);
     ASSERT_NE(find(proof, "proof.blob"), nullptr) << told(proof);
     EXPECT_NEAR(proof.figures.blob_mm3, 33 * 2.40528, 0.1);
 }
@@ -105,6 +108,7 @@ TEST(SeededFault, ANozzleThatDivesIntoThePartIsBelowPrintedMaterial) {
     const Fault* fault = find(proof, "proof.below_printed");
     ASSERT_NE(fault, nullptr) << told(proof);
     EXPECT_EQ(fault->line, printed.layer_lines[12] + 1);
+    EXPECT_EQ(fault->layer, 12);
     EXPECT_EQ(proof.figures.moves_below_printed, 1);
 }
 
