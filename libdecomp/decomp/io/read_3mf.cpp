@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/io/formats.h"
 #include "decomp/io/lib3mf_handle.h"
-#include "decomp/io/zip_directory.h"
+#include "decomp/io/package_census.h"
 
 #include <Eigen/Geometry>
 #include <lib3mf/Model/COM/NMR_DLLInterfaces.h>
@@ -14,9 +14,6 @@ namespace {
 
 using Handle = Lib3mfHandle<&NMR::lib3mf_release>;
 
-constexpr std::uint64_t kMostUnpackedBytes = 2'000'000'000;
-constexpr int kDeepest = 32;  // components within components
-constexpr std::size_t kMostInstances = 100'000;
 constexpr std::size_t kMostTriangles = 50'000'000;  // over all instances
 
 double length_of_unit_mm(DWORD unit) {
@@ -46,7 +43,7 @@ Eigen::Affine3d map_of(const NMR::MODELTRANSFORM& transform) {
     return map;
 }
 
-/// Collects the instances that the build items of one package place.
+/// Collects the instances that the build items of one package place; the census has bounded them.
 class PackageReader {
   public:
     explicit PackageReader(std::string_view name) : name_(name) {}
@@ -99,15 +96,10 @@ class PackageReader {
             NMR::lib3mf_builditem_getobjecttransform(item.get(), &transform) != 0) {
             return refused(item);
         }
-        return add_object(object, map_of(transform), 0);
+        return add_object(object, map_of(transform));
     }
 
-    decomp::Status add_object(const Handle& object, const Eigen::Affine3d& placed, int depth) {
-        // A few nested components name exponentially many instances.
-        if (++instances_ > kMostInstances) {
-            return fail("io.too_large", "more than 100 000 instances of objects",
-                        std::string(name_));
-        }
+    decomp::Status add_object(const Handle& object, const Eigen::Affine3d& placed) {
         BOOL is_mesh = 0;
         if (NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh) != 0) {
             return refused(object);
@@ -116,9 +108,8 @@ class PackageReader {
             return add_mesh(object, placed);
         }
         DWORD count = 0;
-        if (depth >= kDeepest ||
-            NMR::lib3mf_componentsobject_getcomponentcount(object.get(), &count) != 0) {
-            return fail("io.threemf", "components nested more than 32 deep", std::string(name_));
+        if (NMR::lib3mf_componentsobject_getcomponentcount(object.get(), &count) != 0) {
+            return refused(object);
         }
         for (DWORD i = 0; i < count; ++i) {
             Handle component;
@@ -131,8 +122,7 @@ class PackageReader {
                 NMR::lib3mf_component_gettransform(component.get(), &transform) != 0) {
                 return refused(component);
             }
-            if (decomp::Status status = add_object(inner, placed * map_of(transform), depth + 1);
-                !status) {
+            if (decomp::Status status = add_object(inner, placed * map_of(transform)); !status) {
                 return status;
             }
         }
@@ -187,21 +177,14 @@ class PackageReader {
 
     std::string_view name_;
     Handle model_;
-    std::size_t instances_ = 0;
     mesh::TriMesh mesh_;
 };
 
 }  // namespace
 
 Result<ScaledMesh> parse_3mf(std::string_view bytes, std::string_view name) {
-    const std::optional<std::uint64_t> size = unpacked_size(bytes);
-    if (!size) {
-        return fail("io.threemf", "the package is no zip archive with a directory",
-                    std::string(name), "save or download it again");
-    }
-    if (*size > kMostUnpackedBytes) {
-        return fail("io.too_large", "a package that unpacks to " + std::to_string(*size) + " bytes",
-                    std::string(name));
+    if (const auto census = count_package(bytes, name); !census) {
+        return fail(census.error());
     }
     try {
         return PackageReader(name).read(bytes);
