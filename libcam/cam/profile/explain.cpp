@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/profile/fields.h"
+#include "cam/profile/mill_fields_detail.h"
 #include "cam/profile/read_profile.h"
 #include "cam/profile/template.h"
 
@@ -9,7 +10,7 @@ namespace cam::profile {
 
 namespace {
 
-const char* file_folder(File file) {
+std::string file_folder(File file) {
     switch (file) {
         case File::Machine:
             return "fdm";
@@ -17,6 +18,10 @@ const char* file_folder(File file) {
             return "materials";
         case File::Dialect:
             return "dialects";
+        case File::Mill:
+            return "mill";
+        case File::Tool:
+            return "tools";
     }
     return "";
 }
@@ -41,10 +46,10 @@ const char* scope_text(Scope scope) {
 
 constexpr const char* kPreface = R"(# Profiles
 
-A machine, a material and a dialect are one TOML file each, in `machine_profiles/fdm`, `materials` and `dialects`. They
-are looked for in `./machine_profiles`, `$XDG_CONFIG_HOME/hew/machine_profiles` (`~/.config` when unset), the folder
+A printer, a material and a dialect are one TOML file each, in `machine_profiles/fdm`, `materials` and `dialects`; a mill
+and a tool in `mill` and `tools`. They are looked for in `./machine_profiles`, `$XDG_CONFIG_HOME/hew/machine_profiles` (`~/.config` when unset), the folder
 `share/hew/machine_profiles` beside the installed program, and the source tree; the first file of a name wins. A name with
-a slash or `.toml` in it is a path, and brings its own `../materials` and `../dialects` along.
+a slash or `.toml` in it is a path, and brings its own `../materials`, `../dialects` and `../tools` along.
 
 Every file begins with `schema = 1`. Keys end in their unit. An unknown key, a missing one, a value of the wrong type or out
 of its range is an error with file, line and column; all faults of a file are told at once. A set-up whose files do not fit
@@ -122,13 +127,19 @@ std::string explain(const FdmSetup& setup) {
 }
 
 std::string profile_reference_markdown() {
-    FdmSetup defaults;
+    FdmSetup printer;
+    MillMachine mill;
+    ToolFile tool;
+    std::vector<Field> fields = fields_of(printer);
+    for (std::vector<Field> more : {fields_of(mill), fields_of(tool)}) {
+        fields.insert(fields.end(), more.begin(), more.end());
+    }
     std::string out = kPreface;
     std::string section;
-    for (const Field& field : fields_of(defaults)) {
-        if (field.section != section) {
-            section = field.section;
-            out += "\n## [" + section + "] in " + file_folder(field.file) + "/NAME.toml\n\n";
+    for (const Field& field : fields) {
+        if (file_folder(field.file) + field.section != section) {
+            section = file_folder(field.file) + field.section;
+            out += "\n## [" + field.section + "] in " + file_folder(field.file) + "/NAME.toml\n\n";
             out += "| key | default | range | meaning |\n|---|---|---|---|\n";
         }
         std::string value = "required";

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/profile/fields.h"
 
+#include "cam/profile/field_table_detail.h"
 #include "decomp/base/number.h"
-
-#include <type_traits>
 
 namespace cam::profile {
 
@@ -11,30 +10,6 @@ using decomp::Angle;
 using decomp::Speed;
 
 namespace {
-
-enum class Need { Optional, Required };
-
-constexpr Need kRequired = Need::Required;
-constexpr Need kOptional = Need::Optional;
-
-template <class S>
-using Member =
-    std::variant<double S::*, int S::*, bool S::*, std::string S::*, std::vector<std::string> S::*,
-                 Speed S::*, Angle S::*, Eigen::Vector3d S::*, Eigen::Vector4d S::*>;
-
-template <class S>
-struct Row {
-    const char* key;
-    Member<S> member;
-    const char* unit;
-    double low;
-    double high;
-    Need need;
-    const char* doc;
-};
-
-template <class S>
-using Table = std::vector<Row<S>>;
 
 const Table<FdmMachine>& machine_rows() {
     using M = FdmMachine;
@@ -251,17 +226,6 @@ const Table<Dialect>& dialect_rows() {
     return rows;
 }
 
-template <class S>
-void bind(std::vector<Field>& out, File file, const char* section, const Table<S>& rows,
-          S& object) {
-    for (const Row<S>& row : rows) {
-        const Target target =
-            std::visit([&](auto member) -> Target { return &(object.*member); }, row.member);
-        out.push_back({file, section, row.key, row.unit, row.low, row.high,
-                       row.need == Need::Required, row.doc, target});
-    }
-}
-
 std::string quoted(const std::string& text) {
     if (text.find('\n') != std::string::npos && text.find("'''") == std::string::npos) {
         return "'''\n" + text + "'''";
@@ -308,6 +272,8 @@ struct WriteToml {
 
     std::string operator()(const Eigen::Vector4d* value) const { return numbers(*value); }
 
+    std::string operator()(const std::vector<double>* value) const { return numbers(*value); }
+
     std::string operator()(const std::vector<std::string>* value) const {
         std::string out;
         for (const std::string& word : *value) {
@@ -336,6 +302,8 @@ struct StoreNumbers {
         *target = Eigen::Map<const Eigen::Vector4d>(values.data());
     }
 
+    void operator()(std::vector<double>* target) const { *target = values; }
+
     void operator()(bool* /*target*/) const {}
 
     void operator()(std::string* /*target*/) const {}
@@ -353,6 +321,8 @@ struct CountNumbers {
     int operator()(const std::string* /*target*/) const { return 0; }
 
     int operator()(const std::vector<std::string>* /*target*/) const { return 0; }
+
+    int operator()(const std::vector<double>* /*target*/) const { return kAnyCount; }
 
     template <class Number>
     int operator()(const Number* /*target*/) const {

@@ -13,11 +13,12 @@
 namespace cam::profile {
 
 /// Where the value of a field lives in the set-up at hand.
-using Target = std::variant<double*, int*, bool*, std::string*, std::vector<std::string>*,
-                            decomp::Speed*, decomp::Angle*, Eigen::Vector3d*, Eigen::Vector4d*>;
+using Target =
+    std::variant<double*, int*, bool*, std::string*, std::vector<std::string>*, decomp::Speed*,
+                 decomp::Angle*, Eigen::Vector3d*, Eigen::Vector4d*, std::vector<double>*>;
 
 /// Which file a section belongs to.
-enum class File { Machine, Material, Dialect };
+enum class File { Machine, Material, Dialect, Mill, Tool };
 
 struct Field {
     File file = File::Machine;
@@ -41,7 +42,11 @@ struct Field {
 /// vectors).
 void store_numbers(const Target& target, const std::vector<double>& values);
 
-/// How many numbers a target holds; 0 when it holds a text, a truth value or a list of texts.
+/// The count of a target that takes a list of numbers of any length.
+inline constexpr int kAnyCount = -1;
+
+/// How many numbers a target holds; 0 when it holds a text, a truth value or a list of texts,
+/// kAnyCount when it holds as many as are given.
 [[nodiscard]] int number_count(const Target& target);
 
 /// "0.05 .. 1", or an empty text for fields without numbers.

@@ -28,6 +28,13 @@ struct Fault {
     std::string hint;
 };
 
+std::string wanted_numbers(int count) {
+    if (count == kAnyCount) {
+        return "a list of numbers";
+    }
+    return count == 1 ? "one number" : "a list of " + std::to_string(count) + " numbers";
+}
+
 class Reader {
   public:
     Reader(std::vector<Field>& fields, File file, std::string name)
@@ -140,9 +147,7 @@ class Reader {
         const int count = number_count(field.target);
         const toml::array* array = node.as_array();
         if ((array == nullptr) != (count == 1)) {
-            wrong_type(
-                field, node,
-                count == 1 ? "one number" : "a list of " + std::to_string(count) + " numbers");
+            wrong_type(field, node, wanted_numbers(count));
             return;
         }
         for (int i = 0; i < (array == nullptr ? 1 : static_cast<int>(array->size())); ++i) {
@@ -210,9 +215,8 @@ class Reader {
 std::string store_checked(Field& field, const std::vector<double>& values) {
     const std::string name = field.section + "." + field.key;
     const int count = number_count(field.target);
-    if (static_cast<int>(values.size()) != count) {
-        return name + " must be " +
-               (count == 1 ? "one number" : "a list of " + std::to_string(count) + " numbers");
+    if (count != kAnyCount && static_cast<int>(values.size()) != count) {
+        return name + " must be " + wanted_numbers(count);
     }
     for (const double value : values) {
         // Not "value < low": a NaN must fail too.

@@ -23,7 +23,7 @@ TEST(ProfileReference, IsWhatTheTableSays) {
 
 TEST(ProfileReference, EveryFieldIsThereOnceAndExplained) {
     std::set<std::string> seen;
-    for (const cam::profile::FieldRow& row : cam::profile::describe({})) {
+    for (const cam::profile::FieldRow& row : cam::profile::describe(cam::profile::FdmSetup{})) {
         EXPECT_TRUE(seen.insert(row.section + "." + row.key).second) << row.key;
         EXPECT_FALSE(row.doc.empty()) << row.key;
     }
@@ -42,7 +42,7 @@ TEST(ProfileReference, KeysEndInTheirUnit) {
         {"g/cm^3", "_g_per_cm3"},
         {"layers", "_layers"},
     };
-    for (const cam::profile::FieldRow& row : cam::profile::describe({})) {
+    for (const cam::profile::FieldRow& row : cam::profile::describe(cam::profile::FdmSetup{})) {
         if (row.unit.empty()) {
             continue;
         }
