@@ -31,6 +31,8 @@ function(hew_room library room)
   set_property(GLOBAL APPEND PROPERTY HEW_ROOMS ${target})
 endfunction()
 
+set(HEW_TEST_PATIENCE 1 CACHE STRING "Factor on the time limits of tests, for slow builds")
+
 # hew_room_test(<library> <room> SOURCES ... [ROOMS ...] [LIBRARIES ...] [LABEL unit])
 #
 # The test suite of a room, in tests/<label>/<library>/<room>/. HEW_MODELS reaches the tests through the environment.
@@ -42,6 +44,7 @@ function(hew_room_test library room)
   if(NOT SUITE_TIMEOUT)
     set(SUITE_TIMEOUT 120)
   endif()
+  math(EXPR SUITE_TIMEOUT "${SUITE_TIMEOUT} * ${HEW_TEST_PATIENCE}")
   set(target ${library}_${room}_${SUITE_LABEL}_test)
   add_executable(${target} ${SUITE_SOURCES})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")

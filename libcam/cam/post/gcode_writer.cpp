@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace cam::post {
 
@@ -23,7 +24,7 @@ std::int64_t on_grid(double value, int decimals) {
 
 }  // namespace
 
-GcodeWriter::GcodeWriter(const profile::Dialect& dialect) : dialect_(dialect) {}
+GcodeWriter::GcodeWriter(profile::Dialect dialect) : dialect_(std::move(dialect)) {}
 
 void GcodeWriter::raw(std::string_view text) {
     text_ += text;

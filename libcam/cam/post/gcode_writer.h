@@ -18,7 +18,7 @@ namespace cam::post {
 /// what was meant, whatever the number of moves.
 class GcodeWriter {
   public:
-    explicit GcodeWriter(const profile::Dialect& dialect);
+    explicit GcodeWriter(profile::Dialect dialect);
 
     /// Text as it is; must not move the axes X, Y, Z unless forget() follows.
     void raw(std::string_view text);
@@ -49,7 +49,7 @@ class GcodeWriter {
     [[nodiscard]] std::int64_t total_e_grid() const;
     void append_grid(std::int64_t grid, int decimals);
 
-    const profile::Dialect& dialect_;
+    profile::Dialect dialect_;
     std::string text_;
     std::array<std::optional<std::int64_t>, 3> at_;
     std::optional<std::int64_t> feed_;
