@@ -2,6 +2,8 @@
 #pragma once
 
 #include "decomp/base/result.h"
+#include "decomp/io/read_mesh.h"
+#include "decomp/io/volume_boundary.h"
 #include "decomp/mesh/tri_mesh.h"
 
 #include <cstdint>
@@ -26,6 +28,15 @@ enum class Format { StlBinary, StlAscii, Obj, Off, Ply, Threemf, Medit };
 [[nodiscard]] Result<mesh::TriMesh> parse_off(std::string_view bytes, std::string_view name);
 [[nodiscard]] Result<mesh::TriMesh> parse_medit(std::string_view bytes, std::string_view name);
 
+/// The cells of a volume mesh and the points of its file.
+struct Volume {
+    std::vector<Eigen::Vector3d> points;
+    Cells cells;
+};
+
+[[nodiscard]] Result<Volume> parse_medit_volume(std::string_view bytes, std::string_view name);
+[[nodiscard]] Result<Volume> parse_vtk_volume(std::string_view bytes, std::string_view name);
+
 /// A mesh and the length of its unit; 1 where the format states none.
 struct ScaledMesh {
     mesh::TriMesh mesh;
@@ -45,6 +56,13 @@ struct PlyContents {
 /// `columns`: names of integer properties of the faces to keep.
 [[nodiscard]] Result<PlyContents> parse_ply(std::string_view bytes, std::string_view name,
                                             const std::vector<std::string_view>& columns);
+
+/// Millimetres that 1 of the file stands for. @error io.scale, io.unit
+[[nodiscard]] Result<double> length_of(const ReadOptions& options, double unit_of_file_mm);
+
+/// Multiplies all coordinates. @error io.too_large
+[[nodiscard]] Status scale_points(std::vector<Eigen::Vector3d>& points, double factor,
+                                  std::string_view name);
 
 /// Merges points whose coordinates are equal and renumbers the triangles; first come, first
 /// numbered. -0 equals 0.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/io/formats.h"
 #include "decomp/io/text_scanner.h"
-#include "decomp/io/volume_boundary.h"
 
 #include <algorithm>
 #include <limits>
@@ -29,12 +28,9 @@ class MeditParser {
   public:
     MeditParser(std::string_view bytes, std::string_view name) : scanner_(bytes, name) {}
 
-    Result<mesh::TriMesh> parse() {
-        for (std::string_view word = scanner_.word(); !word.empty() && word != "End";
-             word = scanner_.word()) {
-            if (Status status = section(word); !status) {
-                return fail(status.error());
-            }
+    Result<mesh::TriMesh> surface() {
+        if (Status status = sections(); !status) {
+            return fail(status.error());
         }
         if (!cells_.tetrahedra.empty() || !cells_.hexahedra.empty()) {
             return boundary_of(cells_, std::move(mesh_));
@@ -48,7 +44,24 @@ class MeditParser {
         return std::move(mesh_);
     }
 
+    Result<Volume> volume() {
+        if (Status status = sections(); !status) {
+            return fail(status.error());
+        }
+        return Volume{std::move(mesh_.points), std::move(cells_)};
+    }
+
   private:
+    Status sections() {
+        for (std::string_view word = scanner_.word(); !word.empty() && word != "End";
+             word = scanner_.word()) {
+            if (Status status = section(word); !status) {
+                return status;
+            }
+        }
+        return {};
+    }
+
     Status section(std::string_view keyword) {
         if (keyword == "Dimension") {
             return dimension();
@@ -163,7 +176,11 @@ class MeditParser {
 }  // namespace
 
 Result<mesh::TriMesh> parse_medit(std::string_view bytes, std::string_view name) {
-    return MeditParser(bytes, name).parse();
+    return MeditParser(bytes, name).surface();
+}
+
+Result<Volume> parse_medit_volume(std::string_view bytes, std::string_view name) {
+    return MeditParser(bytes, name).volume();
 }
 
 }  // namespace decomp::io

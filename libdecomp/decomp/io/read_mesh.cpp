@@ -50,6 +50,8 @@ Result<ScaledMesh> parse(Format format, std::string_view bytes, std::string_view
     });
 }
 
+}  // namespace
+
 Result<double> length_of(const ReadOptions& options, double unit_of_file_mm) {
     if (!std::isfinite(options.scale) || options.scale <= 0) {
         return fail("io.scale", "a scale must be a finite number above 0", "scale");
@@ -66,7 +68,17 @@ Result<double> length_of(const ReadOptions& options, double unit_of_file_mm) {
                 "use um, mm, cm, m, in or ft");
 }
 
-}  // namespace
+Status scale_points(std::vector<Eigen::Vector3d>& points, double factor, std::string_view name) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] *= factor;
+        if (!(points[i].cwiseAbs().maxCoeff() <= kFarthestMm)) {
+            return fail("io.too_large",
+                        "point " + std::to_string(i) + " lies more than 1000 km from the origin",
+                        std::string(name), "check the unit and the scale");
+        }
+    }
+    return {};
+}
 
 Result<mesh::TriMesh> parse_mesh(std::string_view bytes, std::string_view name,
                                  const ReadOptions& options, const Run& run) {
@@ -91,13 +103,8 @@ Result<mesh::TriMesh> parse_mesh(std::string_view bytes, std::string_view name,
                     "check that the export was complete");
     }
     drop_unused_points(mesh);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        mesh.points[i] *= *length;
-        if (!(mesh.points[i].cwiseAbs().maxCoeff() <= kFarthestMm)) {
-            return fail("io.too_large",
-                        "point " + std::to_string(i) + " lies more than 1000 km from the origin",
-                        std::string(name), "check the unit and the scale");
-        }
+    if (Status status = scale_points(mesh.points, *length, name); !status) {
+        return fail(status.error());
     }
     return mesh;
 }
