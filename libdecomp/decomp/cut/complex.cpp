@@ -7,6 +7,7 @@
 #include "decomp/cut/exact.h"
 #include "decomp/cut/shells.h"
 #include "decomp/cut/split.h"
+#include "decomp/cut/splitter.h"
 #include "decomp/cut/volume.h"
 
 #include <algorithm>
@@ -47,23 +48,66 @@ Result<Complex> Complex::from_volume(const mesh::TriMesh& volume) {
 
 std::int32_t Complex::region_count() const { return state_->regions; }
 
-Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part::Plane& plane) {
-    DECOMP_ASSERT(region >= 0 && region < state_->regions);
+Result<std::int32_t> Complex::add_plane(State& state, const part::Plane& plane) {
     if (!plane.normal.allFinite() || plane.normal.isZero(0) || !std::isfinite(plane.offset_mm)) {
         return fail("cut.bad_plane", "the plane has no normal or a coefficient that is not finite");
     }
-    std::vector<part::Plane>& planes = state_->planes;
+    std::vector<part::Plane>& planes = state.planes;
     const auto known = std::find_if(planes.begin(), planes.end(), [&](const part::Plane& p) {
         return p.normal == plane.normal && p.offset_mm == plane.offset_mm;
     });
-    const bool is_new = known == planes.end();
     const auto index = static_cast<std::int32_t>(known - planes.begin());
-    if (is_new) {
+    if (known == planes.end()) {
         planes.push_back(plane);
     }
-    Result<std::vector<std::int32_t>> ids = split_region(*state_, region, index);
-    if (is_new && (!ids || ids->size() == 1)) {
-        planes.pop_back();
+    return index;
+}
+
+Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part::Plane& plane) {
+    DECOMP_ASSERT(region >= 0 && region < state_->regions);
+    const std::size_t planes_before = state_->planes.size();
+    const Result<std::int32_t> index = add_plane(*state_, plane);
+    if (!index) {
+        return fail(index.error());
+    }
+    Result<std::vector<std::int32_t>> ids = split_region(*state_, region, *index);
+    if (!ids || ids->size() == 1) {
+        state_->planes.resize(planes_before);
+    }
+    return ids;
+}
+
+Result<std::vector<SectionPiece>> Complex::section(std::int32_t region,
+                                                   const part::Plane& plane) const {
+    DECOMP_ASSERT(region >= 0 && region < state_->regions);
+    State copy = *state_;
+    const Result<std::int32_t> index = add_plane(copy, plane);
+    if (!index) {
+        return fail(index.error());
+    }
+    const Result<std::vector<SectionPart>> parts = section_of(copy, region, *index);
+    if (!parts) {
+        return fail(parts.error());
+    }
+    std::vector<SectionPiece> out;
+    out.reserve(parts->size());
+    for (const SectionPart& part : *parts) {
+        out.push_back(part.piece);
+    }
+    return out;
+}
+
+Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part::Plane& plane,
+                                                 const std::vector<std::int32_t>& pieces) {
+    DECOMP_ASSERT(region >= 0 && region < state_->regions);
+    const std::size_t planes_before = state_->planes.size();
+    const Result<std::int32_t> index = add_plane(*state_, plane);
+    if (!index) {
+        return fail(index.error());
+    }
+    Result<std::vector<std::int32_t>> ids = split_region_at(*state_, region, *index, pieces);
+    if (!ids || ids->size() == 1) {
+        state_->planes.resize(planes_before);
     }
     return ids;
 }

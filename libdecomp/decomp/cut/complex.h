@@ -13,6 +13,14 @@
 
 namespace decomp::cut {
 
+/// A connected piece of the cross-section of a region by a plane.
+struct SectionPiece {
+    double area_mm2 = 0;
+    Eigen::Vector3d inside_mm = Eigen::Vector3d::Zero();  ///< a point of it, rounded
+    std::int32_t below = -1;  ///< what lies on either side of it, counted as split() by the whole
+    std::int32_t above = -1;  ///< plane would return the regions
+};
+
 /// A volume partitioned by planes: facets that know the region on either side, one shared vertex
 /// table. Splitting adds regions, merging relabels them, caps are identical on both sides by
 /// construction. Predicates are exact; a vertex stays implicit (input point, edge x plane, facet x
@@ -45,6 +53,22 @@ class Complex {
     /// @error  cut.crossing_constraints  the input intersects itself on the plane
     [[nodiscard]] Result<std::vector<std::int32_t>> split(std::int32_t region,
                                                           const part::Plane& plane);
+
+    /// The cross-section of a region, piece by piece; empty where the plane misses it or takes
+    /// nothing off. Costs a split and a copy of the complex.
+    /// @error as split()
+    [[nodiscard]] Result<std::vector<SectionPiece>> section(std::int32_t region,
+                                                            const part::Plane& plane) const;
+
+    /// As split(), but only along these pieces of section(): what the plane meets elsewhere stays
+    /// whole and unmarked. Pieces that do not take the region apart, as one of the two of a ring,
+    /// are left out.
+    /// @return ids of the regions that `region` became, itself first; [region] if nothing is left
+    /// to cut
+    /// @error  cut.no_such_piece  section() has no piece of this number
+    [[nodiscard]] Result<std::vector<std::int32_t>> split(std::int32_t region,
+                                                          const part::Plane& plane,
+                                                          const std::vector<std::int32_t>& pieces);
 
     /// The plane, moved along its normal by 0, +-1 … +-4 steps: the nearest of these that no vertex
     /// of the region comes closer to than half a step, save those that lie on it exactly; or else
@@ -90,6 +114,10 @@ class Complex {
 
   private:
     struct State;
+
+    /// Index of a plane in the table, added when it is new.
+    [[nodiscard]] static Result<std::int32_t> add_plane(State& state, const part::Plane& plane);
+
     explicit Complex(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

@@ -289,7 +289,10 @@ std::vector<std::int32_t> partners(const Cells& cells, std::int32_t from, std::i
         if (l_first != r_first) {
             return l_first;
         }
-        return sgn(dot<Rational>(axis, cross<Rational>(direction(l), direction(r)))) > 0;
+        const int turn = sgn(dot<Rational>(axis, cross<Rational>(direction(l), direction(r))));
+        // The two sides of one face: the material lies outside of the slit between them.
+        return turn > 0 || (turn == 0 && wings[static_cast<std::size_t>(l)].forward &&
+                            !wings[static_cast<std::size_t>(r)].forward);
     });
     // The material lies clockwise of a forward wing and counter-clockwise of a backward one.
     std::vector<std::int32_t> out(wings.size(), -1);

@@ -14,4 +14,15 @@ namespace decomp::cut {
 [[nodiscard]] Result<std::vector<std::int32_t>> split_region(Cells& cells, std::int32_t region,
                                                              std::int32_t plane);
 
+struct SectionPart;
+
+/// The connected pieces of a region's cross-section; see Complex::section. The bodies on either
+/// side are numbered in the order of the ids that split_region would return.
+[[nodiscard]] Result<std::vector<SectionPart>> section_of(const Cells& cells, std::int32_t region,
+                                                          std::int32_t plane);
+
+/// Splits a region along some pieces of its cross-section; see Complex::split.
+[[nodiscard]] Result<std::vector<std::int32_t>> split_region_at(
+    Cells& cells, std::int32_t region, std::int32_t plane, const std::vector<std::int32_t>& pieces);
+
 }  // namespace decomp::cut
