@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/base/file.h"
 #include "decomp/base/number.h"
+#include "decomp/brep/read_brep.h"
 #include "decomp/io/read_mesh.h"
 #include "decomp/mesh/check.h"
 #include "decomp/mesh/measure.h"
 #include "decomp/repair/intersect.h"
 #include "decomp/repair/repair.h"
+#include "tools/job_options.h"
 #include "tools/verb.h"
 
 #include <filesystem>
 #include <memory>
+#include <numbers>
 
 namespace tools {
 
@@ -19,7 +23,63 @@ constexpr std::size_t kIntersectionsCounted = 10000;
 struct Command {
     std::filesystem::path model;
     decomp::io::ReadOptions read;
+    double angle_deg = 20;
 };
+
+/// What the geometry kernel says of the solids of a STEP or BREP file.
+void describe_bodies(const std::vector<decomp::brep::Body>& bodies, Answer& answer) {
+    answer.json["bodies"] = Json::array();
+    for (const decomp::brep::Body& body : bodies) {
+        const decomp::brep::BodyFigures& figures = body.figures;
+        Json colour = nullptr;
+        if (body.colour) {
+            colour = {(*body.colour)[0], (*body.colour)[1], (*body.colour)[2]};
+        }
+        answer.json["bodies"].push_back(
+            {{"name", body.name},
+             {"colour", colour},
+             {"valid", figures.valid},
+             {"closed", figures.closed},
+             {"volume_mm3", figures.volume_mm3},
+             {"area_mm2", figures.area_mm2},
+             {"min_mm", {figures.min_mm.x(), figures.min_mm.y(), figures.min_mm.z()}},
+             {"max_mm", {figures.max_mm.x(), figures.max_mm.y(), figures.max_mm.z()}},
+             {"faces", figures.faces},
+             {"planes", figures.planes},
+             {"cylinders", figures.cylinders},
+             {"cones", figures.cones},
+             {"cylinder_radii_mm", figures.cylinder_radii_mm}});
+        answer.text += "body '" + body.name + "': " + std::to_string(figures.faces) + " faces (" +
+                       std::to_string(figures.planes) + " planes, " +
+                       std::to_string(figures.cylinders) + " cylinders, " +
+                       std::to_string(figures.cones) + " cones), " +
+                       decomp::decimal(figures.volume_mm3 / 1000, 3) + " cm3, " +
+                       (figures.valid && figures.closed ? "valid" : "NOT valid") + "\n";
+    }
+}
+
+/// Appends the bodies where the file has any. The file is read once more: only this verb wants both
+/// the triangles and the exact figures.
+decomp::Status add_bodies(const Command& command, const decomp::Run& run, Answer& answer) {
+    const auto bytes = decomp::read_file(command.model);
+    if (!bytes) {
+        return decomp::fail(bytes.error());
+    }
+    if (!decomp::brep::kind_of(*bytes)) {
+        return {};
+    }
+    const auto bodies = decomp::brep::read_brep(*bytes, command.model.string(),
+                                                {.deflection_mm = command.read.deflection_mm,
+                                                 .angle = command.read.angle,
+                                                 .body = command.read.body,
+                                                 .measured = true},
+                                                run);
+    if (!bodies) {
+        return decomp::fail(bodies.error());
+    }
+    describe_bodies(*bodies, answer);
+    return {};
+}
 
 Json topology_json(const decomp::mesh::TopologyReport& topology) {
     return {{"closed", topology.closed()},
@@ -58,8 +118,9 @@ std::string text_of(const decomp::mesh::TriMesh& mesh, const decomp::mesh::Topol
            counted(intersections, "pairs of triangles that cross");
 }
 
-decomp::Result<Answer> inspect(const Command& command, const decomp::Run& outer) {
+decomp::Result<Answer> inspect(Command command, const decomp::Run& outer) {
     decomp::Run run = outer;
+    command.read.angle = command.angle_deg * std::numbers::pi / 180;
     const auto mesh = decomp::io::read_mesh(command.model, command.read, run);
     if (!mesh) {
         return decomp::fail(mesh.error());
@@ -83,6 +144,9 @@ decomp::Result<Answer> inspect(const Command& command, const decomp::Run& outer)
     answer.json["topology"] = topology_json(topology);
     answer.json["crossing_pairs"] = intersections;
     answer.text = text_of(*mesh, topology, intersections);
+    if (const auto added = add_bodies(command, run, answer); !added) {
+        return decomp::fail(added.error());
+    }
     if (!repaired) {
         answer.json["repair"] = {{"possible", false},
                                  {"code", repaired.error().code},
@@ -107,12 +171,14 @@ decomp::Result<Answer> inspect(const Command& command, const decomp::Run& outer)
 
 Action declare_inspect(CLI::App& app, const Common& /*common*/) {
     auto command = std::make_shared<Command>();
-    app.add_option("model", command->model, "STL, OBJ, OFF, PLY, 3MF or Medit .mesh")->required();
+    app.add_option("model", command->model, "STL, OBJ, OFF, PLY, 3MF, Medit .mesh, STEP or BREP")
+        ->required();
     app.add_option("--unit", command->read.unit, "length unit of the file: mm, cm, m, in")
         ->group("Model");
     app.add_option("--scale", command->read.scale, "factor on all lengths")
         ->check(CLI::PositiveNumber)
         ->group("Model");
+    add_solid_options(app, command->read.body, command->read.deflection_mm, command->angle_deg);
     return [command](const decomp::Run& run) { return inspect(*command, run); };
 }
 

@@ -133,6 +133,20 @@ void add_model_options(CLI::App& app, std::string& unit, double& scale, std::str
         ->group("Model");
 }
 
+void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& deflection_mm,
+                       double& angle_deg) {
+    app.add_option("--body", body, "of a STEP or BREP file: the body wanted, or all")
+        ->group("Model");
+    add_length(app, "--deflection", deflection_mm,
+               "of a STEP or BREP file: chord error at most; default: by its size")
+        ->group("Model");
+    app.add_option("--angle", angle_deg,
+                   "of a STEP or BREP file: turn between chords at most, degrees")
+        ->check(CLI::Range(1.0, 60.0))
+        ->capture_default_str()
+        ->group("Model");
+}
+
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required) {
     app.add_option("--machine", machine, "profile: a name from 'hew machines', or a .toml file")
@@ -150,13 +164,16 @@ Action declare_job(CLI::App& app, const Common& /*common*/, cam::job::Extent ext
     auto command = std::make_shared<JobCommand>();
     cam::job::MakeRequest& request = command->request;
     request.extent = extent;
-    app.add_option("model", request.model, "STL, OBJ, OFF, PLY, 3MF or Medit .mesh")->required();
+    app.add_option("model", request.model, "STL, OBJ, OFF, PLY, 3MF, Medit .mesh, STEP or BREP")
+        ->required();
     app.add_option("-o,--out", request.directory, "directory of the job; made when absent")
         ->required();
     add_machine_options(app, request.options.machine, request.options.material,
                         request.options.settings, true);
     add_model_options(app, request.options.unit, request.options.scale, request.options.up,
                       request.options.height_mm);
+    add_solid_options(app, request.options.body, request.options.deflection_mm,
+                      request.options.angle_deg);
     app.add_option("--max-parts", request.options.max_parts, "give up beyond this number of parts")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str()

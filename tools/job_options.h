@@ -13,6 +13,10 @@ namespace tools {
 void add_model_options(CLI::App& app, std::string& unit, double& scale, std::string& up,
                        std::optional<double>& height_mm);
 
+/// Declares --body, --deflection and --angle of a STEP or BREP model.
+void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& deflection_mm,
+                       double& angle_deg);
+
 /// Declares --machine, --material and --set.
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required);

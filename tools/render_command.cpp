@@ -151,6 +151,8 @@ Action declare_render(CLI::App& app, const Common& /*common*/) {
     add_machine_options(app, command->machine, command->material, command->settings, false);
     add_model_options(app, command->mesh.unit, command->mesh.scale, command->mesh.up,
                       command->mesh.height_mm);
+    add_solid_options(app, command->mesh.body, command->mesh.deflection_mm,
+                      command->mesh.angle_deg);
     app.add_flag("--force", command->force, "overwrite")->group("General");
     return [command](const Run& run) { return run_render(*command, run); };
 }

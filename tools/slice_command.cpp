@@ -130,6 +130,8 @@ Action declare_slice(CLI::App& app, const Common& /*common*/) {
     add_machine_options(app, command->machine, command->material, command->settings, false);
     add_model_options(app, command->mesh.unit, command->mesh.scale, command->mesh.up,
                       command->mesh.height_mm);
+    add_solid_options(app, command->mesh.body, command->mesh.deflection_mm,
+                      command->mesh.angle_deg);
     app.add_flag("--dry-run", command->dry_run, "plan and prove, write nothing")->group("General");
     app.add_flag("--force", command->force, "overwrite")->group("General");
     return [command](const Run& run) { return slice(*command, run); };

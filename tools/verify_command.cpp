@@ -117,6 +117,8 @@ Action declare_verify(CLI::App& app, const Common& /*common*/) {
     add_machine_options(app, command->machine, command->material, command->settings, false);
     add_model_options(app, command->part.unit, command->part.scale, command->part.up,
                       command->part.height_mm);
+    add_solid_options(app, command->part.body, command->part.deflection_mm,
+                      command->part.angle_deg);
     return [command](const Run& outer) {
         Run run = outer;
         return fs::is_directory(command->program) ? verify_job(*command, run)

@@ -17,6 +17,8 @@ def third_party(name):
         return "posix"
     if "/" in name:
         return name.split("/")[0]
+    if name.endswith(".hxx"):
+        return "OCCT"
     return name.removesuffix(".h") if name.endswith(".h") else "std"
 
 

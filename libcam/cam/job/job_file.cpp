@@ -36,6 +36,9 @@ Json options_json(const JobOptions& options) {
     json["scale"] = options.scale;
     json["up"] = options.up;
     json["height_mm"] = options.height_mm ? Json(*options.height_mm) : Json(nullptr);
+    json["body"] = options.body;
+    json["deflection_mm"] = options.deflection_mm ? Json(*options.deflection_mm) : Json(nullptr);
+    json["angle_deg"] = options.angle_deg;
     json["seed"] = options.seed;
     json["max_parts"] = options.max_parts;
     json["settings"] = options.settings;
@@ -53,6 +56,12 @@ JobOptions read_options(const Json& job) {
     if (!json.at("height_mm").is_null()) {
         options.height_mm = json.at("height_mm").get<double>();
     }
+    // Jobs made before STEP was read lack these.
+    options.body = json.value("body", options.body);
+    if (json.contains("deflection_mm") && !json.at("deflection_mm").is_null()) {
+        options.deflection_mm = json.at("deflection_mm").get<double>();
+    }
+    options.angle_deg = json.value("angle_deg", options.angle_deg);
     options.seed = json.at("seed");
     options.max_parts = json.at("max_parts");
     options.settings = json.at("settings").get<std::vector<std::string>>();

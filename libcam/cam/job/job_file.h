@@ -26,8 +26,11 @@ struct JobOptions {
     std::vector<std::string> settings;  ///< "process.layer_height_mm=0.15"
     std::string unit;  ///< of the file: mm, cm, m, in; empty: the file's own, or mm
     double scale = 1;
-    std::string up = "z";             ///< axis of the file that points up: x -x y -y z -z auto
-    std::optional<double> height_mm;  ///< wished extent along up
+    std::string up = "z";                 ///< axis of the file that points up: x -x y -y z -z auto
+    std::optional<double> height_mm;      ///< wished extent along up
+    std::string body;                     ///< of a STEP or BREP file; empty: all
+    std::optional<double> deflection_mm;  ///< of a STEP or BREP file; empty: by its size
+    double angle_deg = 20;                ///< of a STEP or BREP file: turn between chords
     std::uint64_t seed = 1;
     int max_parts = 200;
 

@@ -11,6 +11,7 @@
 #include "decomp/mesh/measure.h"
 #include "decomp/repair/repair.h"
 
+#include <numbers>
 #include <utility>
 
 namespace cam::job {
@@ -43,13 +44,31 @@ decomp::Status check_chamber(const PartOnPlate& part, const profile::FdmMachine:
 
 }  // namespace
 
+namespace {
+
+template <class Options>
+decomp::io::ReadOptions read_options_of(const Options& options) {
+    return {.scale = options.scale,
+            .unit = options.unit,
+            .body = options.body,
+            .deflection_mm = options.deflection_mm,
+            .angle = options.angle_deg * std::numbers::pi / 180};
+}
+
+}  // namespace
+
+decomp::io::ReadOptions read_options(const MeshRequest& request) {
+    return read_options_of(request);
+}
+
+decomp::io::ReadOptions read_options(const JobOptions& options) { return read_options_of(options); }
+
 Result<decomp::mesh::TriMesh> read_drawable(const MeshRequest& request, Run& run) {
     const auto up = decomp::io::parse_up(request.up);
     if (!up) {
         return fail(up.error());
     }
-    auto mesh =
-        decomp::io::read_mesh(request.path, {.scale = request.scale, .unit = request.unit}, run);
+    auto mesh = decomp::io::read_mesh(request.path, read_options(request), run);
     if (!mesh) {
         return mesh;
     }

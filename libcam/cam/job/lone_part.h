@@ -6,6 +6,7 @@
 #include "cam/profile/read_profile.h"
 #include "cam/verify/verify.h"
 #include "decomp/base/run.h"
+#include "decomp/io/read_mesh.h"
 
 #include <filesystem>
 #include <optional>
@@ -22,7 +23,14 @@ struct MeshRequest {
     double scale = 1;
     std::string up = "z";
     std::optional<double> height_mm;
+    std::string body;
+    std::optional<double> deflection_mm;
+    double angle_deg = 20;
 };
+
+/// How the model file of a request or a job is read.
+[[nodiscard]] decomp::io::ReadOptions read_options(const MeshRequest& request);
+[[nodiscard]] decomp::io::ReadOptions read_options(const JobOptions& options);
 
 /// Reads, turns, scales and repairs a mesh: the shape in the model frame.
 /// @error those of io and repair

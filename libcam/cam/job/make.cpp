@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/job/make.h"
 
+#include "cam/job/lone_part.h"
 #include "cam/job/maker_detail.h"
 #include "cam/job/report.h"
 #include "decomp/base/file.h"
@@ -141,7 +142,7 @@ Result<MakePlan> plan_make(const MakeRequest& request, Run& run) {
     }
     const JobOptions& options = request.options;
     auto mesh = decomp::io::parse_mesh(start->model_bytes, start->job.input.name,
-                                       {.scale = options.scale, .unit = options.unit}, run);
+                                       read_options(options), run);
     if (!mesh) {
         return fail(mesh.error());
     }

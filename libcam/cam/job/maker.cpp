@@ -51,7 +51,10 @@ StageKey Maker::model_key() const {
         .add("unit", options.unit)
         .add("scale", options.scale)
         .add("up", options.up)
-        .add("height", options.height_mm ? decomp::shortest(*options.height_mm) : "");
+        .add("height", options.height_mm ? decomp::shortest(*options.height_mm) : "")
+        .add("body", options.body)
+        .add("deflection", options.deflection_mm ? decomp::shortest(*options.deflection_mm) : "")
+        .add("angle", options.angle_deg);
     return key;
 }
 

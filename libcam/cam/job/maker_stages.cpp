@@ -138,8 +138,7 @@ Result<decomp::part::Part> read_job_part(const std::filesystem::path& directory,
 
 Maker::Files Maker::make_model(Run& run) {
     auto read =
-        decomp::io::parse_mesh(model_bytes_, job_.input.name,
-                               {.scale = job_.options.scale, .unit = job_.options.unit}, run);
+        decomp::io::parse_mesh(model_bytes_, job_.input.name, read_options(job_.options), run);
     if (!read) {
         return fail(read.error());
     }

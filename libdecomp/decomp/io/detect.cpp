@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/brep/read_brep.h"
 #include "decomp/io/formats.h"
 #include "decomp/io/text_scanner.h"
 
@@ -68,6 +69,13 @@ Result<Format> detect_format(std::string_view bytes, std::string_view name) {
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
         return Format::Ply;
     }
+    if (const auto kind = brep::kind_of(bytes)) {
+        return *kind == brep::FileKind::Step ? Format::Step : Format::Brep;
+    }
+    if (extension == ".igs" || extension == ".iges") {
+        return fail("io.unsupported", "IGES files are not read", std::string(name),
+                    "save it as STEP");
+    }
     if (extension == ".meshb") {
         return fail("io.unsupported", "binary Medit files are not read", std::string(name),
                     "save it as ASCII .mesh");
@@ -96,7 +104,8 @@ Result<Format> detect_format(std::string_view bytes, std::string_view name) {
     if (extension == ".stl") {
         return Format::StlBinary;
     }
-    return fail("io.unknown_format", "the content is none of STL, OBJ, OFF, PLY, 3MF and Medit",
+    return fail("io.unknown_format",
+                "the content is none of STL, OBJ, OFF, PLY, 3MF, Medit, STEP and BREP",
                 std::string(name), "convert it to one of these");
 }
 

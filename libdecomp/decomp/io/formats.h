@@ -15,7 +15,7 @@
 /// it in errors.
 namespace decomp::io {
 
-enum class Format { StlBinary, StlAscii, Obj, Off, Ply, Threemf, Medit };
+enum class Format { StlBinary, StlAscii, Obj, Off, Ply, Threemf, Medit, Step, Brep };
 
 /// What the bytes are; the extension (lower case, with dot) decides where they could be several
 /// things.

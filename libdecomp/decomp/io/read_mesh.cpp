@@ -2,6 +2,7 @@
 #include "decomp/io/read_mesh.h"
 
 #include "decomp/base/file.h"
+#include "decomp/brep/read_brep.h"
 #include "decomp/io/formats.h"
 #include "decomp/io/text_scanner.h"
 
@@ -23,7 +24,44 @@ constexpr std::array<Unit, 6> kUnits{
 /// Coordinates beyond this are a slip of the unit, and would overflow in products.
 constexpr double kFarthestMm = 1e9;
 
-Result<ScaledMesh> parse(Format format, std::string_view bytes, std::string_view name) {
+/// All bodies as one mesh, in mm.
+Result<mesh::TriMesh> parse_solids(std::string_view bytes, std::string_view name,
+                                   const ReadOptions& options, const Run& run) {
+    const auto bodies = brep::read_brep(
+        bytes, name,
+        {.deflection_mm = options.deflection_mm, .angle = options.angle, .body = options.body},
+        run);
+    if (!bodies) {
+        return fail(bodies.error());
+    }
+    mesh::TriMesh mesh;
+    for (const brep::Body& body : *bodies) {
+        const auto shift = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), body.mesh.points.begin(), body.mesh.points.end());
+        for (const mesh::Triangle& t : body.mesh.triangles) {
+            mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+        }
+    }
+    return mesh;
+}
+
+/// Options that speak of bodies and chords must not be passed over in silence.
+Status check_options(Format format, std::string_view name, const ReadOptions& options) {
+    if (format == Format::Step && !options.unit.empty()) {
+        return fail("io.unit", "a STEP file states its own unit", std::string(name),
+                    "leave the unit out; a scale changes the size");
+    }
+    const bool solids = format == Format::Step || format == Format::Brep;
+    if (!solids && (!options.body.empty() || options.deflection_mm)) {
+        return fail("io.not_a_solid_model",
+                    "a body or a deflection is chosen, but only STEP and BREP files have them",
+                    std::string(name), "leave the option out");
+    }
+    return {};
+}
+
+Result<ScaledMesh> parse(Format format, std::string_view bytes, std::string_view name,
+                         const ReadOptions& options, const Run& run) {
     const auto without_unit = [](Result<mesh::TriMesh> mesh) {
         return std::move(mesh).map([](mesh::TriMesh&& parsed) {
             return ScaledMesh{std::move(parsed), 1.0};
@@ -42,6 +80,9 @@ Result<ScaledMesh> parse(Format format, std::string_view bytes, std::string_view
             return without_unit(parse_medit(bytes, name));
         case Format::Threemf:
             return parse_3mf(bytes, name);
+        case Format::Step:
+        case Format::Brep:
+            return without_unit(parse_solids(bytes, name, options, run));
         case Format::Ply:
             break;
     }
@@ -86,7 +127,10 @@ Result<mesh::TriMesh> parse_mesh(std::string_view bytes, std::string_view name,
     if (!format) {
         return fail(format.error());
     }
-    Result<ScaledMesh> parsed = parse(*format, bytes, name);
+    if (const Status fitting = check_options(*format, name, options); !fitting) {
+        return fail(fitting.error());
+    }
+    Result<ScaledMesh> parsed = parse(*format, bytes, name, options, run);
     if (!parsed) {
         return fail(parsed.error());
     }
