@@ -8,6 +8,7 @@
 #include "decomp/labels/report.h"
 #include "decomp/proxy/proxy.h"
 #include "decomp/repair/repair.h"
+#include "tests/support/handles.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -30,6 +31,7 @@ struct Options {
     decomp::labels::LabelOptions label;
     std::vector<std::string> models;
     std::string labels_dir;
+    bool handles = false;
 };
 
 /// Compactness of Table 1 of the paper.
@@ -56,15 +58,9 @@ void write_obj(const std::string& path, const decomp::mesh::TriMesh& mesh) {
     std::fclose(file);
 }
 
-void row(const std::string& path, const Options& options) {
+void row(const std::string& name, const decomp::mesh::TriMesh& mesh, const Options& options) {
     decomp::Run run;
-    const std::string name = std::filesystem::path(path).stem().string();
-    const auto read = decomp::io::read_mesh(path, {}, run);
-    if (!read) {
-        std::printf("%-16s %s\n", name.c_str(), read.error().text().c_str());
-        return;
-    }
-    const auto repaired = decomp::repair::repair(*read, {}, run);
+    const auto repaired = decomp::repair::repair(mesh, {}, run);
     if (!repaired) {
         std::printf("%-16s %s\n", name.c_str(), repaired.error().text().c_str());
         return;
@@ -103,6 +99,16 @@ void row(const std::string& path, const Options& options) {
     }
 }
 
+void row(const std::string& path, const Options& options) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    const auto read = decomp::io::read_mesh(path, {}, decomp::Run{});
+    if (!read) {
+        std::printf("%-16s %s\n", name.c_str(), read.error().text().c_str());
+        return;
+    }
+    row(name, *read, options);
+}
+
 std::vector<std::string> all_models() {
     std::vector<std::string> found;
     if (const char* models = std::getenv("HEW_MODELS")) {
@@ -126,6 +132,10 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         const char* value = i + 1 < argc ? argv[i + 1] : "0";
+        if (word == "--handles") {
+            options.handles = true;
+            continue;
+        }
         if (word == "--triangles") {
             options.proxy.triangles = std::atoi(value);
         } else if (word == "--compactness") {
@@ -139,6 +149,11 @@ int main(int argc, char** argv) {
             options.proxy.sharp_angle_deg = std::atof(value);
         } else if (word == "--smoothing") {
             options.label.smoothing = std::atoi(value);
+        } else if (word == "--repair") {
+            const std::string mode = value;
+            options.label.repair = mode == "none"       ? decomp::labels::RepairMode::None
+                                   : mode == "deletion" ? decomp::labels::RepairMode::Deletion
+                                                        : decomp::labels::RepairMode::Constructive;
         } else if (word == "--labels") {
             options.labels_dir = value;
         } else {
@@ -147,7 +162,7 @@ int main(int argc, char** argv) {
         }
         ++i;
     }
-    if (options.models.empty()) {
+    if (options.models.empty() && !options.handles) {
         options.models = all_models();
     }
     std::printf(
@@ -155,6 +170,11 @@ int main(int argc, char** argv) {
         "label\n");
     for (const std::string& model : options.models) {
         row(model, options);
+    }
+    if (options.handles) {
+        for (const auto& shape : tests::handle_shapes()) {
+            row(shape.name, shape.mesh, options);
+        }
     }
     return 0;
 }

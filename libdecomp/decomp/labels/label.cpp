@@ -2,6 +2,7 @@
 #include "decomp/labels/label.h"
 
 #include "decomp/labels/graph_cut.h"
+#include "decomp/labels/repair.h"
 
 #include <numeric>
 #include <utility>
@@ -51,6 +52,14 @@ Result<Labeling> label(const mesh::TriMesh& surface, std::span<const Eigen::Vect
     std::iota(all.begin(), all.end(), 0U);
     const std::vector<LabelCosts> no_extra(facets->count(), LabelCosts{});
     lower(energy, no_extra, all, labels);
+    if (options.repair == RepairMode::Constructive) {
+        labels = repaired(energy, std::move(labels), run);
+    } else if (options.repair == RepairMode::Deletion) {
+        labels = thinned_out(energy, std::move(labels), run);
+    }
+    if (run.cancelled()) {
+        return cancelled();
+    }
     return labels;
 }
 

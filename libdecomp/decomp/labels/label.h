@@ -10,9 +10,17 @@
 
 namespace decomp::labels {
 
+/// What is done about a labelling that no polycube can have.
+enum class RepairMode {
+    Constructive,  ///< charts are added, deleted and reshaped, whatever costs least
+    Deletion,      ///< invalid charts are deleted; for comparison, it loses detail
+    None           ///< the graph cut as it is
+};
+
 struct LabelOptions {
     double compactness = 5;  ///< 1 to 10 as in PolyCut; above 0: the less, the more charts
     int smoothing = 0;       ///< passes over the normals before labelling, 0 to 20
+    RepairMode repair = RepairMode::Constructive;
 };
 
 /// Labels a closed surface for a polycube: a graph cut of the resolution-invariant form of
@@ -23,7 +31,7 @@ struct LabelOptions {
 /// @error labels.normals  there are normals, but not one for each triangle
 /// @error labels.options  an option is outside its range
 /// @error run.cancelled
-/// Cost: 0.02 s for 3500 triangles. Deterministic.
+/// Cost: 0.02 s for 3500 triangles, repair 0.05 to 0.5 s. Deterministic.
 [[nodiscard]] Result<Labeling> label(const mesh::TriMesh& surface,
                                      std::span<const Eigen::Vector3d> normals,
                                      const LabelOptions& options, Run& run);

@@ -134,6 +134,7 @@ class Maker {
                 if (auto proxy = attempt(from_coarse ? coarse_ : kept_, edge, false)) {
                     return std::move(*proxy);
                 }
+                run_.log(LogLevel::Debug, "a stand-in surface was refused: " + reason_);
             }
         }
         for (const double edge : {first, first / std::sqrt(2.0)}) {

@@ -3,6 +3,7 @@
 
 #include "decomp/labels/report.h"
 #include "decomp/proxy/proxy.h"
+#include "tests/support/handles.h"
 #include "tests/support/lattice_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 using decomp::labels::AxisLabel;
 using decomp::labels::label;
+using decomp::labels::RepairMode;
 using decomp::labels::report;
 
 tests::TriMesh evenly(const tests::TriMesh& mesh, int triangles) {
@@ -45,9 +47,9 @@ TEST(Label, ASphereHasTheSixChartsOfACube) {
 
 TEST(Label, ChartsDoNotDependOnTheNumberOfTriangles) {
     decomp::Run run;
-    const auto fine = tests::dumbbell(30, 12, 80, 5, 128);
+    const auto fine = tests::dumbbell(30, 12, 80, 5, 48);
     int first = 0;
-    for (const int triangles : {1500, 3500, 7000}) {
+    for (const int triangles : {1500, 4500}) {
         const auto surface = evenly(fine, triangles);
         const auto labels = label(surface, {}, {.compactness = 5}, run);
         ASSERT_TRUE(labels);
@@ -71,6 +73,39 @@ TEST(Label, NormalsFromOutsideAreFollowed) {
     for (std::size_t f = 0; f < labels->size(); ++f) {
         EXPECT_EQ(box.labels[f] == AxisLabel::PlusX, (*labels)[f] == AxisLabel::PlusY);
     }
+}
+
+TEST(Label, RepairMakesTwoGrownLinksValidAndKeepsTheirFidelity) {
+    decomp::Run run;
+    const auto links = evenly(tests::chain(2).mesh, 3500);
+    const auto raw = label(links, {}, {.repair = RepairMode::None}, run);
+    const auto mended = label(links, {}, {}, run);
+    ASSERT_TRUE(raw && mended);
+    const auto before = report(links, *raw);
+    const auto after = report(links, *mended);
+    EXPECT_FALSE(before.valid());
+    EXPECT_TRUE(after.valid());
+    EXPECT_GT(after.fidelity, before.fidelity - 0.15);
+}
+
+TEST(Label, ConstructionKeepsMoreThanDeletion) {
+    decomp::Run run;
+    const auto surface = evenly(tests::dumbbell(30, 12, 80, 5, 48), 3000);
+    const auto built = label(surface, {}, {.compactness = 2}, run);
+    const auto deleted =
+        label(surface, {}, {.compactness = 2, .repair = RepairMode::Deletion}, run);
+    ASSERT_TRUE(built && deleted);
+    const auto is = report(surface, *built);
+    EXPECT_TRUE(is.valid());
+    EXPECT_GE(is.fidelity, report(surface, *deleted).fidelity);
+}
+
+TEST(Label, ACancelledRunSaysSo) {
+    std::stop_source source;
+    source.request_stop();
+    decomp::Run run;
+    run.stop = source.get_token();
+    EXPECT_EQ(label(tests::box({0, 0, 0}, {1, 1, 1}), {}, {}, run).error().code, "run.cancelled");
 }
 
 TEST(Label, BadInputIsRefused) {

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/labels/repair.h"
+
+#include "decomp/labels/graph_cut.h"
+#include "decomp/labels/layout.h"
+#include "decomp/labels/operators.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace decomp::labels {
+
+namespace {
+
+constexpr double kViolationWorth = 3;       // percent of the area at full misfit
+constexpr double kTurnWorth = 1.5;          // likewise
+constexpr double kConstructionPrice = 0.3;  // of the energy lost; a deletion pays all of it
+constexpr double kForce = 4;                // mean facet costs
+constexpr double kDeletionCap = 1;          // earlier costs of the labels that shall take over
+constexpr double kLeastGain = 1e-6;
+constexpr int kFreeRings = 6;
+constexpr int kMostRounds = 120;
+constexpr double kFidelityPerStep = 0.02;  // may be lost for each violation or turn that goes
+constexpr double kFidelityInAll = 0.15;    // may be lost altogether
+
+/// A labelling and what is wrong with it.
+struct State {
+    Labeling labels;
+    std::vector<LabelCosts> extra;
+    Layout layout;
+    int violations = 0;
+    int turns = 0;
+    double energy = 0;
+    double fidelity = 0;
+
+    [[nodiscard]] std::tuple<int, int, double> rank() const { return {violations, turns, energy}; }
+};
+
+class Search {
+  public:
+    Search(const Energy& energy, Labeling labels, const Run& run)
+        : energy_(energy), facets_(energy.facets()), run_(run) {
+        now_.labels = std::move(labels);
+        now_.extra.assign(facets_.count(), LabelCosts{});
+        measure(now_);
+        first_fidelity_ = now_.fidelity;
+    }
+
+    Labeling best() {
+        State best = now_;
+        for (int round = 0; round < kMostRounds && !run_.cancelled(); ++round) {
+            if ((now_.violations == 0 && now_.turns == 0) || !step()) {
+                break;
+            }
+            if (now_.rank() < best.rank()) {
+                best = now_;
+            }
+        }
+        return best.labels;
+    }
+
+  private:
+    void measure(State& state) const {
+        state.layout = layout_of(facets_, state.labels);
+        state.violations = state.layout.violations();
+        state.turns = static_cast<int>(state.layout.turning_points.size());
+        state.energy = energy_.of(state.labels);
+        state.fidelity = fidelity(facets_, state.labels);
+    }
+
+    bool step() {
+        found_ = false;
+        gain_ = kLeastGain;
+        const Scene scene{energy_, now_.labels, now_.layout};
+        const Consider consider = [&](const Proposal& proposal) { return weigh(proposal); };
+        propose_for_charts(scene, consider);
+        if (!good_enough()) {
+            propose_for_opposites(scene, consider);
+        }
+        if (!good_enough()) {
+            propose_for_corners(scene, consider);
+        }
+        if (now_.violations == 0) {
+            propose_for_turns(scene, consider);
+        }
+        if (found_) {
+            now_ = std::move(next_);
+        }
+        return found_;
+    }
+
+    [[nodiscard]] bool good_enough() const { return gain_ > kViolationWorth / 2; }
+
+    /// Solves near the change and keeps the outcome if it is the best of the round.
+    bool weigh(const Proposal& proposal) {
+        State state;
+        state.labels = now_.labels;
+        state.extra = now_.extra;
+        const auto seeds = apply(proposal, state);
+        if (!seeds.empty()) {
+            lower(energy_, state.extra, grown(facets_, seeds, scaled_rings(facets_, kFreeRings)),
+                  state.labels);
+            if (state.labels != now_.labels) {
+                measure(state);
+                compare(proposal, state);
+            }
+        }
+        return !(now_.violations > 0 && good_enough()) && !run_.cancelled();
+    }
+
+    static std::vector<std::uint32_t> apply(const Proposal& proposal, State& state) {
+        std::vector<std::uint32_t> seeds;
+        for (const auto& [f, label] : proposal.forced) {
+            for (std::size_t l = 0; l < kLabelCount; ++l) {
+                state.extra[f].at(l) += kForce;
+            }
+            state.extra[f].at(static_cast<std::size_t>(label)) = 0;
+            state.labels[f] = label;
+            seeds.push_back(f);
+        }
+        for (const auto& [f, label] : proposal.forbidden) {
+            LabelCosts& extra = state.extra[f];
+            extra.at(static_cast<std::size_t>(label)) += kForce;
+            if (proposal.deletes) {
+                for (std::size_t l = 0; l < kLabelCount; ++l) {
+                    if (l != static_cast<std::size_t>(label)) {
+                        extra.at(l) = std::min(extra.at(l), kDeletionCap);
+                    }
+                }
+            }
+            seeds.push_back(f);
+        }
+        std::sort(seeds.begin(), seeds.end());
+        seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+        return seeds;
+    }
+
+    void compare(const Proposal& proposal, State& state) {
+        const int violations_gone = now_.violations - state.violations;
+        const int turns_gone = now_.turns - state.turns;
+        if (violations_gone < 0 || (violations_gone == 0 && turns_gone <= 0)) {
+            return;
+        }
+        const double allowed =
+            kFidelityPerStep * (std::max(0, violations_gone) + std::max(0, turns_gone));
+        if (now_.fidelity - state.fidelity > allowed ||
+            first_fidelity_ - state.fidelity > kFidelityInAll) {
+            return;
+        }
+        const double price = proposal.deletes ? 1 : kConstructionPrice;
+        const double gain = kViolationWorth * violations_gone + kTurnWorth * turns_gone -
+                            price * (state.energy - now_.energy);
+        if (gain > gain_) {
+            gain_ = gain;
+            next_ = std::move(state);
+            found_ = true;
+        }
+    }
+
+    const Energy& energy_;
+    const Facets& facets_;
+    const Run& run_;
+    State now_;
+    State next_;
+    double gain_ = 0;
+    bool found_ = false;
+    double first_fidelity_ = 0;
+};
+
+}  // namespace
+
+Labeling repaired(const Energy& energy, Labeling labels, const Run& run) {
+    return Search(energy, std::move(labels), run).best();
+}
+
+Labeling thinned_out(const Energy& energy, Labeling labels, const Run& run) {
+    constexpr int kRounds = 40;
+    constexpr double kPenalty = 5;
+    constexpr int kSeamRings = 3;
+    const Facets& facets = energy.facets();
+    std::vector<LabelCosts> extra(facets.count(), LabelCosts{});
+    std::vector<std::uint32_t> all(facets.count());
+    std::iota(all.begin(), all.end(), 0U);
+    for (int round = 0; round < kRounds && !run.cancelled(); ++round) {
+        const Layout layout = layout_of(facets, labels);
+        if (layout.violations() == 0) {
+            break;
+        }
+        bool deleted = false;
+        for (std::uint32_t f = 0; f < facets.count(); ++f) {
+            if (layout.charts[layout.chart_of[f]].deficiency > 0) {
+                extra[f].at(static_cast<std::size_t>(labels[f])) += kPenalty;
+                deleted = true;
+            }
+        }
+        std::vector<std::uint32_t> seam;
+        for (const auto& [f, g] : layout.opposite_facets) {
+            seam.push_back(f);
+            seam.push_back(g);
+        }
+        if (!deleted && seam.empty()) {
+            break;  // only corners of many boundaries are left: nothing to delete
+        }
+        if (!deleted) {
+            std::sort(seam.begin(), seam.end());
+            seam.erase(std::unique(seam.begin(), seam.end()), seam.end());
+            for (const auto f : grown(facets, seam, scaled_rings(facets, kSeamRings))) {
+                extra[f].at(static_cast<std::size_t>(labels[f])) += kPenalty;
+                extra[f].at(static_cast<std::size_t>(opposite(labels[f]))) += kPenalty;
+            }
+        }
+        lower(energy, extra, all, labels);
+    }
+    return labels;
+}
+
+}  // namespace decomp::labels
