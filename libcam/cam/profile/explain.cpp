@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/profile/fields.h"
+#include "cam/profile/link_fields_detail.h"
 #include "cam/profile/mill_fields_detail.h"
 #include "cam/profile/read_profile.h"
 #include "cam/profile/template.h"
@@ -22,6 +23,8 @@ std::string file_folder(File file) {
             return "mill";
         case File::Tool:
             return "tools";
+        case File::Link:
+            return "links";
     }
     return "";
 }
@@ -131,7 +134,8 @@ std::string profile_reference_markdown() {
     MillMachine mill;
     ToolFile tool;
     std::vector<Field> fields = fields_of(printer);
-    for (std::vector<Field> more : {fields_of(mill), fields_of(tool)}) {
+    Link link;
+    for (std::vector<Field> more : {fields_of(mill), fields_of(tool), fields_of(link)}) {
         fields.insert(fields.end(), more.begin(), more.end());
     }
     std::string out = kPreface;

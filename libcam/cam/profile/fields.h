@@ -18,7 +18,7 @@ using Target =
                  decomp::Angle*, Eigen::Vector3d*, Eigen::Vector4d*, std::vector<double>*>;
 
 /// Which file a section belongs to.
-enum class File { Machine, Material, Dialect, Mill, Tool };
+enum class File { Machine, Material, Dialect, Mill, Tool, Link };
 
 struct Field {
     File file = File::Machine;
