@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meeting the board, what the operator wants, and the passing of time.
+#include "cam/protocol/marlin.h"
+
+#include <algorithm>
+
+namespace cam::protocol {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Instant kStepWait = 2s;  ///< for the answer to a line while meeting
+constexpr int kStepTries = 6;
+constexpr Instant kKillWait = 2s;
+constexpr int kSilenceDoublings = 8;
+
+}  // namespace
+
+void Marlin::meet(Meeting meeting, Instant now) {
+    phase_ = Phase::Meeting;
+    meeting_ = meeting;
+    identity_ = {};
+    splitter_.clear();
+    query_pending_ = fault_pending_ = step_refused_ = false;
+    swallow_ok_ = 0;
+    meeting_rounds_ = 0;
+    hold_until_.reset();
+    last_sign_ = last_send_ = now;
+    if (options_.expects_banner) {
+        step_ = Step::Banner;
+        step_until_ = now + options_.banner_wait;
+    } else {
+        enter(meeting == Meeting::Again ? Step::Name : Step::Clear, now);
+    }
+}
+
+void Marlin::enter(Step step, Instant now) {
+    step_ = step;
+    step_tries_ = 0;
+    say_step(now);
+}
+
+void Marlin::say_step(Instant now) {
+    if (++step_tries_ > kStepTries) {
+        fail(
+            "protocol.no_answer",
+            "the machine does not answer: is this its port, its baud rate, and is it switched on?");
+        return;
+    }
+    step_until_ = now + std::min(kStepWait, options_.silence);
+    step_refused_ = false;
+    last_send_ = now;
+    switch (step_) {
+        case Step::Banner:
+            break;
+        case Step::Clear:
+            out_.bytes += "\n" + numbered_line(0, "M110 N0");
+            break;
+        case Step::Name:
+            out_.bytes += meeting_ == Meeting::Again ? "\nM115\n" : numbered_line(1, "M115");
+            break;
+        case Step::Autoreport:
+            out_.bytes += numbered_line(2, "M155 S1");
+            break;
+        case Step::Number: {
+            const std::string before = std::to_string(kFirstNumber - 1);
+            out_.bytes += numbered_line(kFirstNumber - 1, "M110 N" + before);
+            break;
+        }
+        case Step::Confirm:
+            out_.bytes += "\n" + numbered_line(1, "M105");
+            break;
+    }
+}
+
+void Marlin::next_step(Instant now) {
+    switch (step_) {
+        case Step::Banner:
+        case Step::Clear:
+            enter(Step::Name, now);
+            break;
+        case Step::Name: {
+            emit(Event::Kind::Identified);
+            if (meeting_ == Meeting::Again) {
+                enter(Step::Confirm, now);
+                break;
+            }
+            const auto reports = identity_.capabilities.find("AUTOREPORT_TEMP");
+            const bool can = reports != identity_.capabilities.end() && reports->second == "1";
+            enter(can ? Step::Autoreport : Step::Number, now);
+            break;
+        }
+        case Step::Autoreport:
+            enter(Step::Number, now);
+            break;
+        case Step::Number:
+        case Step::Confirm:
+            enter(Step::Confirm, now);
+            break;
+    }
+}
+
+void Marlin::meeting_reply(const MarlinReply& reply, Instant now) {
+    using Kind = MarlinReply::Kind;
+    if (reply.kind == Kind::Firmware) {
+        identity_.firmware = firmware_field(reply.text, "FIRMWARE_NAME");
+        identity_.machine = firmware_field(reply.text, "MACHINE_TYPE");
+    } else if (reply.kind == Kind::Capability) {
+        const std::size_t colon = std::min(reply.text.find(':'), reply.text.size());
+        const std::string name(reply.text.substr(0, colon));
+        const std::string value(reply.text.substr(std::min(colon + 1, reply.text.size())));
+        if (identity_.capabilities.size() < 200) {
+            identity_.capabilities[name] = value;
+        }
+        identity_.emergency_parser =
+            identity_.emergency_parser || (name == "EMERGENCY_PARSER" && value == "1");
+    } else if (reply.kind == Kind::Resend) {
+        step_refused_ = true;
+        if (reply.number && step_ == Step::Confirm) {
+            swallow_ok_ = 1;
+            confirmed(*reply.number, now);
+        }
+    } else if (reply.kind == Kind::LineFault) {
+        step_refused_ = true;
+    } else if (reply.kind == Kind::Busy) {
+        step_until_ = now + kStepWait;
+    } else if (reply.kind == Kind::Ok && step_ != Step::Banner) {
+        if (swallow_ok_ > 0) {
+            --swallow_ok_;
+        } else if (step_ == Step::Confirm) {
+            if (!step_refused_ && meeting_ == Meeting::Again && !reply.heaters.empty()) {
+                fail("protocol.machine_reset",
+                     "the machine was reset since the job stopped: it does not know its lines");
+            }
+        } else if (step_ == Step::Name && identity_.firmware.empty()) {
+            if (++meeting_rounds_ > kStepTries) {
+                fail("protocol.no_answer", "the machine does not tell its name (M115)");
+                return;
+            }
+            enter(meeting_ == Meeting::Again ? Step::Name : Step::Clear, now);
+        } else if (step_refused_ && step_ != Step::Name && step_ != Step::Autoreport) {
+            say_step(now);
+        } else {
+            next_step(now);
+        }
+    }
+}
+
+void Marlin::confirmed(long next_number, Instant now) {
+    const long has = next_number - kFirstNumber;
+    if (meeting_ == Meeting::Fresh) {
+        if (has != 0) {
+            enter(Step::Number, now);
+            return;
+        }
+    } else if (has < 0 || has > static_cast<long>(job_.size())) {
+        fail(next_number <= 3 ? "protocol.machine_reset" : "protocol.lost_count",
+             "the machine's last line is number " + std::to_string(next_number - 1) +
+                 ", which is not of this job");
+        return;
+    }
+    phase_ = Phase::Ready;
+    emit(Event::Kind::Ready, {}, has);
+}
+
+void Marlin::wish(Wish wish, Instant now) {
+    if (is_over(phase_) || phase_ == Phase::Closed) {
+        return;
+    }
+    switch (wish) {
+        case Wish::Stop:
+            out_.discard = true;
+            out_.bytes.clear();
+            out_.urgent = "\nM112\n";
+            phase_ = Phase::Stopping;
+            killed_ = true;
+            cut_ = next_;
+            tail_.clear();
+            hold_until_.reset();
+            stop_until_ = now + kKillWait;
+            if (!identity_.emergency_parser) {
+                emit(Event::Kind::Warning,
+                     "this firmware has no emergency parser: the stop waits behind the lines that "
+                     "it "
+                     "has already taken. Use the machine's own switch");
+            }
+            break;
+        case Wish::Cancel:
+            cancel(now);
+            break;
+        case Wish::Pause:
+            if (phase_ == Phase::Running) {
+                pause("by the operator; motion that the machine has already taken is finished");
+            }
+            break;
+        case Wish::Resume:
+            resume(now);
+            break;
+        default:
+            emit(Event::Kind::Notice, "Marlin's speed is changed with the machine's own knob");
+    }
+}
+
+void Marlin::pause(const std::string& why) {
+    if (phase_ == Phase::Running) {
+        phase_ = Phase::Paused;
+        emit(Event::Kind::Paused, why);
+    }
+}
+
+void Marlin::resume(Instant now) {
+    if (prompted_) {
+        prompted_ = false;
+        prompt_.clear();
+        out_.urgent += "\nM876 S0\n";
+        return;
+    }
+    if (asks_for_m108_) {
+        asks_for_m108_ = false;
+        out_.urgent += "\nM108\n";
+        return;
+    }
+    if (phase_ == Phase::Paused || phase_ == Phase::Asking) {
+        phase_ = Phase::Running;
+        emit(Event::Kind::Resumed);
+        last_sign_ = now;
+        fill(now);
+        check_end(now);
+    }
+}
+
+void Marlin::cancel(Instant now) {
+    if (phase_ == Phase::Meeting || phase_ == Phase::Ready) {
+        phase_ = Phase::Stopped;
+        emit(Event::Kind::Stopped, "before the first line");
+        return;
+    }
+    if (phase_ == Phase::Stopping) {
+        return;
+    }
+    phase_ = Phase::Stopping;
+    cut_ = sent_;
+    tail_ = {"M104 S0", "M140 S0", "M107"};
+    if (identity_.emergency_parser) {
+        // Ends waiting for heaters, and the motion that is planned.
+        out_.urgent += "\nM108\nM410\n";
+    }
+    stop_until_ = now + options_.patience;
+    fill(now);
+}
+
+void Marlin::on_action(std::string_view action, Instant now) {
+    if (action == "pause" || action == "paused") {
+        pause("by the machine");
+    } else if ((action == "resume" || action == "resumed") && phase_ == Phase::Paused) {
+        resume(now);
+    } else if (action == "cancel") {
+        cancel(now);
+    } else if (action.starts_with("prompt_begin")) {
+        prompt_ = action.substr(std::min(action.size(), std::string_view("prompt_begin ").size()));
+    } else if (action.starts_with("prompt_button") || action.starts_with("prompt_choice")) {
+        const std::size_t name = std::string_view("prompt_button ").size();
+        prompt_ += " [" + std::string(action.substr(std::min(action.size(), name))) + "]";
+        prompt_.resize(std::min<std::size_t>(prompt_.size(), 400));
+    } else if (action == "prompt_show") {
+        prompted_ = true;
+        emit(Event::Kind::Asked, prompt_ + " (yes answers with the first choice)");
+    } else if (action == "prompt_end") {
+        prompted_ = false;
+        prompt_.clear();
+    } else {
+        emit(Event::Kind::Warning, "the machine reports: " + std::string(action));
+    }
+}
+
+void Marlin::silence(Instant now) {
+    if (now - last_sign_ >= options_.patience) {
+        fail("protocol.machine_silent",
+             "the machine has not answered for " + std::to_string((now - last_sign_) / 1s) + " s");
+        return;
+    }
+    silence_ = std::min(2 * silence_, kSilenceDoublings * options_.silence);
+    swallow_ok_ = 0;
+    fault_pending_ = false;
+    last_line_.reset();
+    query(now);
+}
+
+void Marlin::tick(Instant now) {
+    if (hold_until_ && now >= *hold_until_) {
+        hold_until_.reset();
+        swallow_ok_ = 0;
+        if (acked_ < next_) {
+            query(now);
+        }
+        fill(now);
+    }
+    if (phase_ == Phase::Meeting && now >= step_until_) {
+        if (step_ == Step::Banner) {
+            enter(meeting_ == Meeting::Again ? Step::Name : Step::Clear, now);
+        } else {
+            swallow_ok_ = 0;
+            say_step(now);
+        }
+    }
+    if (phase_ == Phase::Stopping && now >= stop_until_) {
+        phase_ = Phase::Stopped;
+        emit(Event::Kind::Stopped, "the machine did not confirm");
+    }
+    const bool waiting =
+        !killed_ &&
+        (phase_ == Phase::Running || phase_ == Phase::Stopping || phase_ == Phase::Paused) &&
+        (acked_ < next_ || query_pending_);
+    if (waiting && now >= std::max(last_sign_, last_send_) + silence_) {
+        silence(now);
+    }
+}
+
+std::optional<Instant> Marlin::deadline() const {
+    std::optional<Instant> soonest = hold_until_;
+    const auto consider = [&](Instant when) { soonest = std::min(soonest.value_or(when), when); };
+    if (phase_ == Phase::Meeting) {
+        consider(step_until_);
+    }
+    if (phase_ == Phase::Stopping) {
+        consider(stop_until_);
+    }
+    if ((phase_ == Phase::Running || phase_ == Phase::Stopping || phase_ == Phase::Paused) &&
+        !killed_ && (acked_ < next_ || query_pending_)) {
+        consider(std::max(last_sign_, last_send_) + silence_);
+    }
+    return soonest;
+}
+
+}  // namespace cam::protocol

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+/// Reading numbers out of replies; nothing here throws, whatever the bytes.
+namespace cam::protocol::detail {
+
+/// The number at the beginning of `text`, taken off it; nothing when there is none or it is out of
+/// range.
+template <class Number>
+[[nodiscard]] std::optional<Number> take_number(std::string_view& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{}) {
+        return std::nullopt;
+    }
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
+inline void skip_spaces(std::string_view& text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) {
+        text.remove_prefix(1);
+    }
+}
+
+/// True when `text` begins with the word, which is taken off it.
+[[nodiscard]] inline bool take_word(std::string_view& text, std::string_view word) {
+    if (!text.starts_with(word)) {
+        return false;
+    }
+    text.remove_prefix(word.size());
+    return true;
+}
+
+[[nodiscard]] inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Printable ASCII, or part of UTF-8 text.
+[[nodiscard]] inline bool is_text(std::string_view text) {
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if ((byte < 0x20 && c != '\t') || byte == 0x7F) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace cam::protocol::detail
