@@ -3,12 +3,16 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <limits>
 
 namespace decomp::tets {
 
 namespace {
+
+constexpr double kFlat = 1e-6;          // of the determinant: all but flat, no place in a mean
+constexpr double kLeastStretch = 1e-3;  // singular values count as no less
 
 Eigen::Matrix3d edges(std::span<const Eigen::Vector3d> points, const Tet& tet) {
     Eigen::Matrix3d out;
@@ -48,9 +52,14 @@ Measures measure(const Pair& pair) {
             flipped += volume;
             continue;
         }
+        if (mapped < kFlat * volume) {
+            continue;
+        }
         const Eigen::Matrix3d j = jacobian(pair, i);
+        const Eigen::Vector3d stretch = j.jacobiSvd().singularValues().cwiseMax(kLeastStretch);
         kept += volume;
-        out.symmetric_dirichlet += volume * (j.squaredNorm() + j.inverse().squaredNorm()) / 6;
+        out.symmetric_dirichlet +=
+            volume * (stretch.squaredNorm() + stretch.cwiseInverse().squaredNorm()) / 6;
     }
     if (kept > 0) {
         out.symmetric_dirichlet /= kept;

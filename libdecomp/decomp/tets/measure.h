@@ -21,8 +21,9 @@ struct Measures {
     std::size_t flips = 0;           ///< tets that are flat or inverted in the polycube
     double flipped_share = 0;        ///< their share of the shape's volume
     double least_determinant = 0;    ///< of the Jacobians
-    double symmetric_dirichlet = 0;  ///< mean over the volume of the others, of
-                                     ///< (|J|^2 + |J^-1|^2) / 6: 1 for a rotation
+    double symmetric_dirichlet = 0;  ///< mean over the volume of tets with det > 1e-6, of
+                                     ///< (|J|^2 + |J^-1|^2) / 6, singular values no less than
+                                     ///< 1e-3: 1 for a rotation
     double volume_mm3 = 0;           ///< of the shape
     double polycube_mm3 = 0;         ///< of the polycube, inverted tets counting negative
 };
