@@ -178,6 +178,21 @@ Action declare_job(CLI::App& app, const Common& /*common*/, cam::job::Extent ext
         ->check(CLI::Range(1, 10000))
         ->capture_default_str()
         ->group("Parts");
+    app.add_option("--mode", request.options.mode,
+                   "where cuts come from: sheets (of a polycube), paper, or sections")
+        ->check(CLI::IsMember({"sheets", "paper", "sections"}))
+        ->capture_default_str()
+        ->group("Parts");
+    app.add_option("--polycube", request.options.polycube,
+                   "polycube of the model: two files of tets, SHAPE POLYCUBE (Medit or VTK)")
+        ->expected(2)
+        ->group("Parts");
+    app.add_flag("--boxes", request.options.boxes,
+                 "keep every box of the polycube as a part, also where fewer would do")
+        ->group("Parts");
+    add_size(app, "--max-size", request.options.max_size_mm,
+             "largest part as it stands: 100x100x80mm; smaller than the chamber")
+        ->group("Parts");
     app.add_flag("--dry-run", command->dry_run, "say what would be done, write nothing")
         ->group("General");
     app.add_flag("--force", request.force,

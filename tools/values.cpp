@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/values.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -40,6 +41,45 @@ CLI::Option* add_length(CLI::App& app, const std::string& name, std::optional<do
             },
             description)
         ->type_name("LENGTH");
+}
+
+decomp::Result<Eigen::Vector3d> parse_size_mm(std::string_view text) {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvw yz";
+    const std::size_t unit_at = text.find_last_not_of(kLetters) + 1;
+    const std::string unit(text.substr(std::min(unit_at, text.size())));
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    std::string_view rest = text;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t cross = rest.find('x');
+        std::string one(rest.substr(0, cross));
+        if (!one.empty() && one.find_first_of(kLetters) == std::string::npos) {
+            one += unit;
+        }
+        const auto length = parse_length_mm(one);
+        if (!length || (axis < 2) == (cross == std::string_view::npos)) {
+            return decomp::fail("usage.length", "'" + std::string(text) + "' is no size", {},
+                                "write three lengths and a unit: 100x100x80mm");
+        }
+        out[axis] = *length;
+        rest.remove_prefix(cross == std::string_view::npos ? rest.size() : cross + 1);
+    }
+    return out;
+}
+
+CLI::Option* add_size(CLI::App& app, const std::string& name,
+                      std::optional<Eigen::Vector3d>& size_mm, const std::string& description) {
+    return app
+        .add_option_function<std::string>(
+            name,
+            [&size_mm](const std::string& text) {
+                const auto size = parse_size_mm(text);
+                if (!size) {
+                    throw CLI::ValidationError(size.error().message + "; " + size.error().hint);
+                }
+                size_mm = *size;
+            },
+            description)
+        ->type_name("SIZE");
 }
 
 std::string duration_text(double seconds) {

@@ -41,6 +41,10 @@ Json options_json(const JobOptions& options) {
     json["angle_deg"] = options.angle_deg;
     json["seed"] = options.seed;
     json["max_parts"] = options.max_parts;
+    json["mode"] = options.mode;
+    json["boxes"] = options.boxes;
+    json["polycube"] = options.polycube;
+    json["max_size_mm"] = options.max_size_mm ? numbers(*options.max_size_mm) : Json(nullptr);
     json["settings"] = options.settings;
     return json;
 }
@@ -64,6 +68,12 @@ JobOptions read_options(const Json& job) {
     options.angle_deg = json.value("angle_deg", options.angle_deg);
     options.seed = json.at("seed");
     options.max_parts = json.at("max_parts");
+    options.mode = json.value("mode", options.mode);
+    options.boxes = json.value("boxes", false);
+    options.polycube = json.value("polycube", options.polycube);
+    if (json.contains("max_size_mm") && !json.at("max_size_mm").is_null()) {
+        options.max_size_mm = vector3(json.at("max_size_mm"));
+    }
     options.settings = json.at("settings").get<std::vector<std::string>>();
     return options;
 }
@@ -95,6 +105,67 @@ ModelFacts read_model(const Json& job) {
     return model;
 }
 
+Json polycube_json(const decomp::pipeline::BoxFacts& facts) {
+    Json json;
+    json["used"] = facts.used;
+    json["boxes"] = facts.boxes;
+    json["parts"] = facts.parts;
+    json["cuts"] = facts.cuts;
+    json["limited_cuts"] = facts.limited_cuts;
+    json["skipped_tongues"] = facts.skipped_tongues;
+    json["healed"] = facts.healed;
+    json["healed_share"] = facts.healed_share;
+    json["mislabeled_share"] = facts.mislabeled_share;
+    json["flipped_share"] = facts.flipped_share;
+    json["sheets"] = Json::array();
+    for (const auto& sheet : facts.sheets) {
+        Json corners = Json::array();
+        for (const Eigen::Vector3d& corner : sheet.corners) {
+            corners.push_back(numbers(corner));
+        }
+        json["sheets"].push_back({{"plane", numbers(std::array<double, 4>{
+                                                sheet.plane.normal.x(), sheet.plane.normal.y(),
+                                                sheet.plane.normal.z(), sheet.plane.offset_mm})},
+                                  {"axis", sheet.axis},
+                                  {"level", sheet.level},
+                                  {"snapped", sheet.snapped},
+                                  {"area_mm2", sheet.area_mm2},
+                                  {"rms_mm", sheet.rms_mm},
+                                  {"max_mm", sheet.max_mm},
+                                  {"corners", corners}});
+    }
+    return json;
+}
+
+decomp::pipeline::BoxFacts read_polycube(const Json& json) {
+    decomp::pipeline::BoxFacts facts;
+    facts.used = json.at("used");
+    facts.boxes = json.at("boxes");
+    facts.parts = json.at("parts");
+    facts.cuts = json.at("cuts");
+    facts.limited_cuts = json.at("limited_cuts");
+    facts.skipped_tongues = json.at("skipped_tongues");
+    facts.healed = json.at("healed");
+    facts.healed_share = json.at("healed_share");
+    facts.mislabeled_share = json.at("mislabeled_share");
+    facts.flipped_share = json.at("flipped_share");
+    for (const Json& sheet : json.at("sheets")) {
+        decomp::pipeline::SheetFacts out;
+        out.plane = {vector3(sheet.at("plane")), sheet.at("plane").at(3).get<double>()};
+        out.axis = sheet.at("axis");
+        out.level = sheet.at("level");
+        out.snapped = sheet.at("snapped");
+        out.area_mm2 = sheet.at("area_mm2");
+        out.rms_mm = sheet.at("rms_mm");
+        out.max_mm = sheet.at("max_mm");
+        for (const Json& corner : sheet.at("corners")) {
+            out.corners.push_back(vector3(corner));
+        }
+        facts.sheets.push_back(std::move(out));
+    }
+    return facts;
+}
+
 Json decomposition_json(const DecompositionFacts& facts) {
     Json json;
     json["tier"] = facts.tier;
@@ -111,6 +182,7 @@ Json decomposition_json(const DecompositionFacts& facts) {
                                       {"area_mm2", interface.area_mm2}});
     }
     json["notes"] = facts.notes;
+    json["polycube"] = facts.polycube ? polycube_json(*facts.polycube) : Json(nullptr);
     return json;
 }
 
@@ -126,6 +198,9 @@ DecompositionFacts read_decomposition(const Json& json) {
                                     interface.at("parts").at(1), interface.at("area_mm2")});
     }
     facts.notes = json.at("notes").get<std::vector<std::string>>();
+    if (json.contains("polycube") && !json.at("polycube").is_null()) {
+        facts.polycube = read_polycube(json.at("polycube"));
+    }
     return facts;
 }
 

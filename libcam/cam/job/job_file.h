@@ -4,6 +4,7 @@
 #include "decomp/base/frame.h"
 #include "decomp/base/result.h"
 #include "decomp/part/part.h"
+#include "decomp/pipeline/decompose.h"
 
 #include <Eigen/Core>
 
@@ -33,6 +34,10 @@ struct JobOptions {
     double angle_deg = 20;                ///< of a STEP or BREP file: turn between chords
     std::uint64_t seed = 1;
     int max_parts = 200;
+    std::string mode = "sheets";        ///< where the cuts come from: sheets, paper, sections
+    bool boxes = false;                 ///< every box of the polycube stays a part
+    std::vector<std::string> polycube;  ///< files of shape and polycube, tets; empty: made here
+    std::optional<Eigen::Vector3d> max_size_mm;  ///< of a part as it stands, besides the chamber
 
     bool operator==(const JobOptions&) const = default;
 };
@@ -72,6 +77,7 @@ struct DecompositionFacts {
     std::vector<decomp::part::Plane> planes;
     std::vector<decomp::part::Interface> interfaces;
     std::vector<std::string> notes;
+    std::optional<decomp::pipeline::BoxFacts> polycube;  ///< when there was one
 };
 
 /// A part on a plate: its part bed frame stands at `offset_mm` on the bed, unturned.

@@ -3,6 +3,7 @@
 #include "cam/job/report.h"
 #include "cam/orient/choose_build.h"
 #include "cam/verify/proof_json.h"
+#include "decomp/base/file.h"
 #include "decomp/base/hash.h"
 #include "decomp/base/number.h"
 
@@ -41,6 +42,10 @@ Maker::Maker(const MakeRequest& request, profile::FdmSetup setup, std::string mo
       run_(std::move(run)),
       stages_(request.directory, job, run_) {
     run_.seed = request.options.seed;
+    for (const std::string& file : request.options.polycube) {
+        const auto bytes = decomp::read_file(file);
+        polycube_hashes_.push_back(bytes ? decomp::sha256_hex(*bytes) : "");
+    }
 }
 
 StageKey Maker::model_key() const {
@@ -62,9 +67,14 @@ StageKey Maker::parts_key() const {
     StageKey key("parts", kPartsRevision);
     key.add("model", stages_.hash_of("model.ply"))
         .add("max_parts", std::to_string(job_.options.max_parts))
+        .add("mode", job_.options.mode)
+        .add("boxes", job_.options.boxes ? "kept" : "united")
         .add("seed", std::to_string(job_.options.seed));
+    for (const std::string& hash : polycube_hashes_) {
+        key.add("polycube", hash);
+    }
     // Not the whole profile: another material or infill leaves the parts as they are.
-    for (const double value : orient::judged_values(setup_.machine)) {
+    for (const double value : orient::judged_values(judged_machine())) {
         key.add("judged", value);
     }
     return key;

@@ -6,7 +6,9 @@
 #include "cam/job/stage.h"
 #include "cam/profile/read_profile.h"
 #include "decomp/part/part.h"
+#include "decomp/pipeline/decompose.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,13 @@ class Maker {
     [[nodiscard]] StageKey assembly_key() const;
     [[nodiscard]] StageKey report_key() const;
 
+    /// The machine as the judge sees it: its chamber is no larger than the job wants its parts.
+    [[nodiscard]] profile::FdmMachine judged_machine() const;
+
+    /// The polycube that the job names. @error those of io and tets; job.polycube
+    [[nodiscard]] decomp::Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>>
+    imported_map() const;
+
     [[nodiscard]] Files make_model(decomp::Run& run);
     [[nodiscard]] Files make_parts(decomp::Run& run);
     [[nodiscard]] Files arrange(decomp::Run& run);
@@ -58,6 +67,7 @@ class Maker {
     const MakeRequest& request_;
     profile::FdmSetup setup_;
     std::string model_bytes_;
+    std::vector<std::string> polycube_hashes_;
     JobFile& job_;
     decomp::Run run_;
     StageRunner stages_;
@@ -65,7 +75,7 @@ class Maker {
 
 /// Raised with every change of what a program looks like, so that older jobs are made anew.
 inline constexpr int kModelRevision = 1;
-inline constexpr int kPartsRevision = 1;
+inline constexpr int kPartsRevision = 2;
 inline constexpr int kArrangeRevision = 1;
 inline constexpr int kProgramRevision = 1;
 inline constexpr int kPicturesRevision = 1;

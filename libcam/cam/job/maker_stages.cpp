@@ -176,13 +176,31 @@ Maker::Files Maker::make_parts(Run& run) {
     if (!model) {
         return fail(model.error());
     }
-    auto decomposed = decomp::pipeline::decompose(*model, {.max_parts = job_.options.max_parts},
-                                                  orient::fdm_judge(setup_), run);
+    decomp::pipeline::DecomposeOptions options;
+    options.max_parts = job_.options.max_parts;
+    const auto mode = decomp::pipeline::mode_named(job_.options.mode);
+    if (!mode) {
+        return fail(mode.error());
+    }
+    options.mode = *mode;
+    options.keep_boxes = job_.options.boxes;
+    const auto map = imported_map();
+    if (!map) {
+        return fail(map.error());
+    }
+    options.map = *map;
+    profile::FdmSetup judged = setup_;
+    judged.machine = judged_machine();
+    auto decomposed = decomp::pipeline::decompose(*model, options, orient::fdm_judge(judged), run);
     if (!decomposed) {
         return fail(decomposed.error());
     }
-    job_.decomposition = {decomposed->tier, decomposed->cuts, decomposed->assembly.planes,
-                          decomposed->assembly.interfaces, decomposed->notes};
+    job_.decomposition = {decomposed->tier,
+                          decomposed->cuts,
+                          decomposed->assembly.planes,
+                          decomposed->assembly.interfaces,
+                          decomposed->notes,
+                          decomposed->boxes};
     for (const std::string& note : decomposed->notes) {
         run.info("decomposition: " + note);
     }

@@ -106,7 +106,8 @@ bool is_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }  // namespace
 
 std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& verdict, int offsets,
-                                  const std::vector<part::Plane>& known) {
+                                  const std::vector<part::Plane>& known,
+                                  const std::vector<part::Plane>& mapped) {
     std::vector<Candidate> out;
     std::vector<Neck> necks;
     const std::vector<mesh::Flat> flats = mesh::large_flats(part.mesh, {.min_share = kLargeFlat});
@@ -126,6 +127,9 @@ std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& v
         out.push_back({plane, index, natural(plane.normal.normalized()), false, 0});
     }
     ++index;
+    for (const part::Plane& plane : mapped) {
+        out.push_back({plane, index++, natural(plane.normal), false, 0});
+    }
     std::stable_sort(necks.begin(), necks.end(),
                      [](const Neck& a, const Neck& b) { return a.strength > b.strength; });
     necks.resize(std::min(necks.size(), kRelaxed));

@@ -20,10 +20,11 @@ struct Candidate {
 };
 
 /// Planes at events and at even spacing along each direction, the judge's own proposals, and necks
-/// with their planes relaxed, and the `known` ones. Deterministic; none touches the ends of the
-/// part.
+/// with their planes relaxed, the `known` ones, and the `mapped` ones. Deterministic; none touches
+/// the ends of the part.
 [[nodiscard]] std::vector<Candidate> candidates(const part::Part& part,
                                                 const part::Verdict& verdict, int offsets,
-                                                const std::vector<part::Plane>& known);
+                                                const std::vector<part::Plane>& known,
+                                                const std::vector<part::Plane>& mapped);
 
 }  // namespace decomp::pipeline

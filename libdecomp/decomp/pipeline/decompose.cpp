@@ -4,6 +4,7 @@
 #include "decomp/base/number.h"
 #include "decomp/cut/complex.h"
 #include "decomp/mesh/measure.h"
+#include "decomp/pipeline/boxes.h"
 #include "decomp/pipeline/nudge.h"
 #include "decomp/pipeline/plan.h"
 #include "decomp/pipeline/settle.h"
@@ -15,6 +16,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -29,6 +32,7 @@ constexpr std::array<double, 4> kNudges{3e-5, 5e-5, 7e-5, 1e-4};  // of the diag
 constexpr double kOneLevel = 1e-3;    // of the diagonal: centres this near are level
 constexpr int kSplitTries = 4;        // positions of one plane tried where a split is refused
 constexpr int kPlannedDepth = 24;     // deeper regions are only bisected
+constexpr double kSamePlane = 1e-9;   // of the diagonal: offsets of one plane
 constexpr double kSameVolume = 0.05;  // relative: a planned piece and the region that it became
 constexpr double kSameCentre = 0.03;  // of the diagonal
 
@@ -37,6 +41,7 @@ struct Pending {
     std::int32_t region = 0;
     std::shared_ptr<PlannedCut>* plan = nullptr;
     int depth = 0;
+    const Hints* hints = nullptr;
 };
 
 part::Plane bisecting(const mesh::TriMesh& mesh) {
@@ -55,12 +60,15 @@ class Decomposer {
           run_(run),
           whole_{mesh::diagonal_mm(volume), mesh::volume_mm3(volume)} {}
 
-    Result<Decomposition> decompose(const cut::Complex& uncut) {
-        roots_.resize(static_cast<std::size_t>(uncut.region_count()));
+    /// @param start  makes the complex to begin with for a nudge, as a share of the diagonal
+    Result<Decomposition> decompose(const std::function<Result<Start>(double)>& start) {
         Result<Decomposition> result = fail("decompose.no_progress", "nothing was tried");
         for (const double nudge : kNudges) {
-            cut::Complex complex = uncut;
-            result = attempt(complex, nudge);
+            Result<Start> begun = start(nudge);
+            if (!begun) {
+                return fail(begun.error());
+            }
+            result = attempt(*begun, nudge);
             if (result || result.error().code != "cut.rounding_intersects") {
                 return result;
             }
@@ -72,25 +80,41 @@ class Decomposer {
     }
 
   private:
-    Result<Decomposition> attempt(cut::Complex& complex, double nudge) {
+    Result<Decomposition> attempt(Start& start, double nudge) {
+        cut::Complex& complex = start.complex;
         finished_.clear();
         used_.clear();
-        Status cut = cut_all(complex, nudge * whole_.diagonal_mm);
+        for (const auto& [region, hints] : start.hints) {
+            for (const part::Plane& plane : hints.known) {
+                used_.emplace_back(plane, plane);
+            }
+        }
+        if (hints_ != start.hints.size()) {
+            roots_.clear();  // plans of other regions than those of the attempt before
+        }
+        hints_ = start.hints.size();
+        Status cut = cut_all(start, nudge * whole_.diagonal_mm);
         if (!cut) {
             return fail(cut.error());
         }
-        const int merges = options_.merge ? unite_neighbours(complex, finished_, judge_, run_) : 0;
+        const bool merge = options_.merge && !start.keeps_regions;
+        const int merges = merge ? unite_neighbours(complex, finished_, judge_, run_) : 0;
         if (run_.cancelled()) {
             return cancelled();
         }
         run_.progress("decompose", 0.9);
-        return written(complex, merges);
+        return written(start, merges);
     }
 
-    Status cut_all(cut::Complex& complex, double step_mm) {
+    Status cut_all(Start& start, double step_mm) {
+        cut::Complex& complex = start.complex;
         std::deque<Pending> pending;
         for (std::int32_t region = 0; region < complex.region_count(); ++region) {
-            pending.push_back({region, &roots_[static_cast<std::size_t>(region)], 0});
+            if (!complex.is_empty(region)) {
+                const auto hints = start.hints.find(region);
+                pending.push_back({region, &roots_[region], 0,
+                                   hints == start.hints.end() ? nullptr : &hints->second});
+            }
         }
         while (!pending.empty()) {
             if (run_.cancelled()) {
@@ -125,7 +149,8 @@ class Decomposer {
             return {};
         }
         if (next.plan != nullptr && !*next.plan && next.depth < kPlannedDepth) {
-            *next.plan = plan_cut(part, options_, judge_, whole_, run_);
+            *next.plan = plan_cut(part, options_, judge_, whole_,
+                                  next.hints != nullptr ? *next.hints : Hints{}, run_);
             if (run_.cancelled()) {
                 return cancelled();
             }
@@ -145,8 +170,8 @@ class Decomposer {
                 Result<std::vector<std::int32_t>> regions = complex.split(next.region, plane);
                 if (regions && regions->size() > 1) {
                     for (const std::int32_t region : *regions) {
-                        pending.push_back(
-                            {region, plan_of(complex, region, plane, *choice), next.depth + 1});
+                        pending.push_back({region, plan_of(complex, region, plane, *choice),
+                                           next.depth + 1, next.hints});
                     }
                     return {};
                 }
@@ -167,7 +192,8 @@ class Decomposer {
     /// A plane that two regions share is nudged once, so that it stays one plane.
     part::Plane used_or_nudged(const part::Plane& aim, const mesh::TriMesh& mesh, double step_mm) {
         for (const auto& [planned, cut] : used_) {
-            if (planned.normal == aim.normal && planned.offset_mm == aim.offset_mm) {
+            if (planned.normal == aim.normal &&
+                std::abs(planned.offset_mm - aim.offset_mm) <= kSamePlane * whole_.diagonal_mm) {
                 return cut;
             }
         }
@@ -223,14 +249,15 @@ class Decomposer {
         return order;
     }
 
-    Result<Decomposition> written(const cut::Complex& complex, int merges) {
-        Result<part::Assembly> assembly = complex.assemble(reading_order(), run_);
+    Result<Decomposition> written(const Start& start, int merges) {
+        Result<part::Assembly> assembly = start.complex.assemble(reading_order(), run_);
         if (!assembly) {
             return fail(assembly.error());
         }
         Decomposition out;
         out.assembly = std::move(*assembly);
-        out.tier = "T4";
+        out.tier = start.tier;
+        out.boxes = start.facts;
         for (const part::Part& part : out.assembly.parts) {
             out.verdicts.push_back(judge_(part, part::Fidelity::Exact));
             out.poses.push_back(out.verdicts.back().best_pose);
@@ -256,22 +283,107 @@ class Decomposer {
     const part::Judge& judge_;
     Run& run_;
     Whole whole_;
-    std::vector<std::pair<part::Plane, part::Plane>> used_;  // as planned, as cut
-    std::vector<std::shared_ptr<PlannedCut>> roots_;         // plans survive a second attempt
+    std::vector<std::pair<part::Plane, part::Plane>> used_;      // as planned, as cut
+    std::map<std::int32_t, std::shared_ptr<PlannedCut>> roots_;  // plans survive a second attempt
+    std::size_t hints_ = 0;                                      // regions that had any
     std::deque<std::shared_ptr<PlannedCut>> strays_;  // plans of regions that no plan foresaw
     std::vector<Finished> finished_;
 };
 
+/// Parts, and what they cost besides: the weights are those of the search.
+double cost_of(const Decomposition& found) {
+    constexpr double kAreaWeight = 0.6;
+    constexpr double kSupportWeight = 0.8;
+    double volume = 0;
+    double surface = 0;
+    double interface = 0;
+    double support = 0;
+    for (const part::Part& part : found.assembly.parts) {
+        volume += mesh::volume_mm3(part.mesh);
+        surface += mesh::area_mm2(part.mesh);
+    }
+    for (const part::Interface& one : found.assembly.interfaces) {
+        interface += one.area_mm2;
+    }
+    for (const part::Verdict& verdict : found.verdicts) {
+        support += verdict.support_area_mm2;
+    }
+    return static_cast<double>(found.assembly.parts.size()) +
+           kAreaWeight * interface / std::cbrt(volume * volume) +
+           kSupportWeight * support / surface;
+}
+
+bool content_with_all(const cut::Complex& complex, const part::Judge& judge) {
+    for (std::int32_t region = 0; region < complex.region_count(); ++region) {
+        if (!judge(complex.region(region), part::Fidelity::Exact).ok()) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
+
+Result<Mode> mode_named(std::string_view name) {
+    for (const auto& [known, mode] :
+         {std::pair("sheets", Mode::Sheets), std::pair("paper", Mode::Paper),
+          std::pair("sections", Mode::Sections)}) {
+        if (name == known) {
+            return mode;
+        }
+    }
+    return fail("decompose.mode", "there is no mode '" + std::string(name) + "'", "",
+                "use sheets, paper or sections");
+}
 
 Result<Decomposition> decompose(const mesh::TriMesh& volume, const DecomposeOptions& options,
                                 const part::Judge& judge, Run& run) {
     run.progress("decompose", 0);
-    Result<cut::Complex> complex = cut::Complex::from_volume(volume);
+    const Result<cut::Complex> complex = cut::Complex::from_volume(volume);
     if (!complex) {
         return fail(complex.error());
     }
-    return Decomposer(volume, options, judge, run).decompose(*complex);
+    const auto by_sections = [&] {
+        return Decomposer(volume, options, judge, run).decompose([&](double) -> Result<Start> {
+            return Start(*complex);
+        });
+    };
+    if (options.mode == Mode::Sections || !options.map ||
+        (!options.keep_boxes && content_with_all(*complex, judge))) {
+        return by_sections();
+    }
+    std::optional<BoxFacts> facts;
+    Result<Decomposition> boxes =
+        Decomposer(volume, options, judge, run).decompose([&](double nudge) {
+            Result<Start> start = start_from_boxes(volume, options, nudge, run);
+            if (start) {
+                facts = start->facts;
+            }
+            return start;
+        });
+    if (!boxes && (boxes.error().code == "run.cancelled" || options.keep_boxes)) {
+        return boxes;
+    }
+    if (boxes && options.keep_boxes) {
+        return boxes;
+    }
+    Result<Decomposition> sections = by_sections();
+    if (!sections) {
+        return boxes ? std::move(boxes) : std::move(sections);
+    }
+    if (boxes && cost_of(*boxes) <= cost_of(*sections)) {
+        return boxes;
+    }
+    sections->boxes = facts;
+    if (sections->boxes) {
+        sections->boxes->used = false;
+    }
+    sections->notes.push_back(
+        boxes ? "cross-sections were used: " + std::to_string(sections->assembly.parts.size()) +
+                    " parts and less interface and support, the polycube needs " +
+                    std::to_string(boxes->assembly.parts.size())
+              : "cross-sections were used: " + boxes.error().message);
+    return sections;
 }
 
 }  // namespace decomp::pipeline

@@ -7,11 +7,37 @@
 #include "decomp/mesh/tri_mesh.h"
 #include "decomp/part/judge.h"
 #include "decomp/part/part.h"
+#include "decomp/part/plane.h"
+#include "decomp/tets/tet_mesh.h"
 
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace decomp::pipeline {
+
+/// Where the cuts come from.
+enum class Mode {
+    Sheets,  ///< the sheets between the boxes of a polycube; sections where the map is bad or they
+             ///< need fewer parts
+    Paper,   ///< as the paper: boxes with flattened sides, one plane for each side
+    Sections,  ///< events of the cross-sections alone
+};
+
+/// "sheets", "paper" or "sections". @error decompose.mode
+[[nodiscard]] Result<Mode> mode_named(std::string_view name);
+
+/// The polycube of a shape and where it comes from.
+struct PolycubeMap {
+    tets::Pair pair;                                         ///< shape in the model frame
+    tets::Lattice lattice;                                   ///< in polycube space
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< polycube axes = rotation * model
+    std::string tier = "T2";  ///< what the map is worth: T1 valid, T2 with flips, T3 invalid labels
+};
 
 /// Every budget is counted, never timed, so that results do not depend on the speed of a machine.
 struct DecomposeOptions {
@@ -22,6 +48,38 @@ struct DecomposeOptions {
     double thin_share =
         0.015;  ///< of the diagonal: volume / interface below it is a tongue, taken only in need
     bool merge = true;  ///< unite neighbours afterwards where the judge allows
+    Mode mode = Mode::Sheets;
+    bool keep_boxes = false;  ///< every box of the polycube stays a part, also where the judge
+                              ///< would take several as one
+    std::shared_ptr<const PolycubeMap> map;  ///< null: the cuts come from the cross-sections
+    double most_mislabeled = 0.1;            ///< share of the map's votes; a worse map is not used
+};
+
+/// A plane that the polycube proposed, and how far the sheets mapped to it lie from it.
+struct SheetFacts {
+    part::Plane plane;
+    int axis = 0;   ///< of polycube space
+    int level = 0;  ///< index of the lattice plane along it
+    bool snapped = false;
+    double area_mm2 = 0;
+    double rms_mm = 0;
+    double max_mm = 0;
+    std::vector<Eigen::Vector3d> corners;  ///< paper mode: the four back-mapped corners of the side
+};
+
+/// What the polycube gave.
+struct BoxFacts {
+    int boxes = 0;
+    int parts = 0;  ///< before the judge was asked
+    int cuts = 0;
+    int limited_cuts = 0;
+    int skipped_tongues = 0;
+    int healed = 0;
+    double healed_share = 0;
+    double mislabeled_share = 0;
+    double flipped_share = 0;
+    bool used = false;  ///< false: the cuts come from the cross-sections, see the notes
+    std::vector<SheetFacts> sheets;
 };
 
 struct Decomposition {
@@ -29,14 +87,18 @@ struct Decomposition {
     std::vector<Pose<PartBedFrame, ModelFrame>>
         poses;                            ///< one for each part: the one in which it was judged
     std::vector<part::Verdict> verdicts;  ///< one for each part; all ok
-    std::string tier;                     ///< "T4": planes at cross-section events
+    std::string tier;                     ///< of the map; "T4": planes at cross-section events
     int cuts = 0;                         ///< planes used
+    std::optional<BoxFacts> boxes;        ///< when there was a polycube
     std::vector<std::string> notes;       ///< what a reader of the report should know
 };
 
 /// Cuts a volume until the judge is content with every part, then unites neighbours where it stays
-/// content. A volume that already is fine comes back as one part for each of its bodies. Works for
-/// every closed volume; the parts are an exact partition.
+/// content. With a polycube its boxes are the parts to begin with; the outcome is compared with
+/// that of the cross-sections, and the one with fewer parts is taken (or the one with less
+/// interface and support), unless the boxes are to be kept. A volume that already is fine comes
+/// back as one part for each of its bodies. Works for every closed volume; the parts are an exact
+/// partition.
 /// @param volume  closed, manifold, outward, free of self-intersection (see repair)
 /// @param judge   must become content with small enough pieces
 /// @error decompose.too_many_parts  the judge was not content with max_parts parts

@@ -166,12 +166,14 @@ struct Node {
     const part::Verdict& verdict;
     int depth;
     const std::vector<part::Plane>& known;
+    const std::vector<part::Plane>& mapped;
 };
 
 std::vector<Trial> all_tried(const Node& node, const Search& search) {
     const int offsets =
         node.depth == 0 ? search.options.offsets : std::min(7, search.options.offsets);
-    const std::vector<Candidate> planes = candidates(node.part, node.verdict, offsets, node.known);
+    const std::vector<Candidate> planes =
+        candidates(node.part, node.verdict, offsets, node.known, node.mapped);
     const double needed = parts_needed(node.verdict);
     std::vector<std::optional<Trial>> slots(planes.size());
     for_each_index(search.run, planes.size(), [&](std::size_t i) {
@@ -271,7 +273,8 @@ PlannedCut followed(const Node& node, const Trial& trial, int budget, const Sear
             cut.cost += 1;
         } else {
             planned.next =
-                best_cut({pieces[i].part, trial.verdicts[i], node.depth + 1, known}, share, search);
+                best_cut({pieces[i].part, trial.verdicts[i], node.depth + 1, known, node.mapped},
+                         share, search);
             cut.cost += planned.next ? planned.next->cost : parts_needed(trial.verdicts[i]);
             if (planned.next) {
                 collect_planes(*planned.next, known);
@@ -303,6 +306,15 @@ std::shared_ptr<PlannedCut> best_cut(const Node& node, int budget, const Search&
     return best;
 }
 
+/// The planes as they lie in the inflated stand-in.
+std::vector<part::Plane> inflated(std::vector<part::Plane> planes, const Eigen::Vector3d& centre) {
+    for (part::Plane& plane : planes) {
+        const double at_centre = plane.normal.dot(centre);
+        plane.offset_mm = at_centre + (plane.offset_mm - at_centre) * kInflation;
+    }
+    return planes;
+}
+
 /// Carries a plan from the inflated stand-in back to the part.
 void deflate(PlannedCut& cut, const Eigen::Vector3d& centre) {
     // x' = c + s (x - c): n . x' = d  <=>  n . x = n . c + (d - n . c) / s
@@ -320,7 +332,8 @@ void deflate(PlannedCut& cut, const Eigen::Vector3d& centre) {
 }  // namespace
 
 std::shared_ptr<PlannedCut> plan_cut(const part::Part& part, const DecomposeOptions& options,
-                                     const part::Judge& judge, const Whole& root, Run& run) {
+                                     const part::Judge& judge, const Whole& root,
+                                     const Hints& hints, Run& run) {
     part::Part stand_in =
         simplified(part, static_cast<std::size_t>(std::max(500, options.proxy_triangles)));
     const Eigen::Vector3d centre = mesh::bounds(stand_in.mesh).center();
@@ -329,7 +342,10 @@ std::shared_ptr<PlannedCut> plan_cut(const part::Part& part, const DecomposeOpti
     }
     const Search search{options, judge, root.diagonal_mm, root.volume_mm3, run};
     const part::Verdict verdict = judge(stand_in, part::Fidelity::Estimate);
-    std::shared_ptr<PlannedCut> plan = best_cut({stand_in, verdict, 0, {}}, kMaxNodes, search);
+    const std::vector<part::Plane> known = inflated(hints.known, centre);
+    const std::vector<part::Plane> mapped = inflated(hints.mapped, centre);
+    std::shared_ptr<PlannedCut> plan =
+        best_cut({stand_in, verdict, 0, known, mapped}, kMaxNodes, search);
     if (plan) {
         deflate(*plan, centre);
     }

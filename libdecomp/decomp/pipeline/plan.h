@@ -35,12 +35,18 @@ struct Whole {
     double volume_mm3 = 0;
 };
 
+/// Planes worth a try, from whoever knows more about the part.
+struct Hints {
+    std::vector<part::Plane> known;   ///< that cut its neighbours
+    std::vector<part::Plane> mapped;  ///< of the polycube, within its box
+};
+
 /// The best known way to cut a part with which the judge is not content: looks ahead along the most
 /// promising planes until every piece is fine. Null when no plane makes progress.
 /// @param root  what thinness and smallness are measured by
 [[nodiscard]] std::shared_ptr<PlannedCut> plan_cut(const part::Part& part,
                                                    const DecomposeOptions& options,
                                                    const part::Judge& judge, const Whole& root,
-                                                   Run& run);
+                                                   const Hints& hints, Run& run);
 
 }  // namespace decomp::pipeline

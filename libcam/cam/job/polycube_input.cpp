@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/job/maker_detail.h"
+#include "cam/orient/choose_build.h"
+#include "decomp/cells/lattice.h"
+#include "decomp/io/read_tets.h"
+#include "decomp/tets/pair.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <utility>
+
+namespace cam::job {
+
+using decomp::fail;
+using decomp::Result;
+
+profile::FdmMachine Maker::judged_machine() const {
+    profile::FdmMachine machine = setup_.machine;
+    if (job_.options.max_size_mm) {
+        const Eigen::Vector3d excess =
+            (orient::usable_mm(machine) - *job_.options.max_size_mm).cwiseMax(0);
+        machine.chamber.min_mm.head<2>() += excess.head<2>() / 2;
+        machine.chamber.max_mm.head<2>() -= excess.head<2>() / 2;
+        machine.chamber.max_mm.z() -= excess.z();
+    }
+    return machine;
+}
+
+Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> Maker::imported_map() const {
+    const std::vector<std::string>& files = job_.options.polycube;
+    if (files.empty()) {
+        return std::shared_ptr<const decomp::pipeline::PolycubeMap>();
+    }
+    if (files.size() != 2) {
+        return fail("job.polycube", "a polycube is two files of tets, the shape and its polycube");
+    }
+    auto shape =
+        decomp::io::read_tets(files[0], {.scale = job_.options.scale, .unit = job_.options.unit});
+    auto polycube = decomp::io::read_tets(files[1], {});
+    if (!shape || !polycube) {
+        return fail(shape ? polycube.error() : shape.error());
+    }
+    auto pair = decomp::tets::pair_of(std::move(*shape), std::move(*polycube));
+    if (!pair) {
+        return fail(pair.error());
+    }
+    Eigen::Matrix3d turn;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            turn(row, column) =
+                job_.model.model_from_file.at(static_cast<std::size_t>(4 * row + column));
+        }
+    }
+    for (Eigen::Vector3d& point : pair->shape) {
+        point = turn * point;
+    }
+    auto lattice = decomp::cells::lattice_from(*pair);
+    if (!lattice) {
+        return fail(lattice.error());
+    }
+    decomp::pipeline::PolycubeMap map;
+    map.pair = std::move(*pair);
+    map.lattice = std::move(*lattice);
+    // The axes of an imported polycube are those of its file, turned like the shape.
+    map.rotation = (turn / std::cbrt(turn.determinant())).transpose();
+    map.tier = "imported";
+    return std::make_shared<const decomp::pipeline::PolycubeMap>(std::move(map));
+}
+
+}  // namespace cam::job
