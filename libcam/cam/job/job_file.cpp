@@ -112,6 +112,7 @@ Json polycube_json(const decomp::pipeline::BoxFacts& facts) {
     json["parts"] = facts.parts;
     json["cuts"] = facts.cuts;
     json["limited_cuts"] = facts.limited_cuts;
+    json["shifted_cuts"] = facts.shifted_cuts;
     json["skipped_tongues"] = facts.skipped_tongues;
     json["healed"] = facts.healed;
     json["healed_share"] = facts.healed_share;
@@ -144,6 +145,7 @@ decomp::pipeline::BoxFacts read_polycube(const Json& json) {
     facts.parts = json.at("parts");
     facts.cuts = json.at("cuts");
     facts.limited_cuts = json.at("limited_cuts");
+    facts.shifted_cuts = json.at("shifted_cuts");
     facts.skipped_tongues = json.at("skipped_tongues");
     facts.healed = json.at("healed");
     facts.healed_share = json.at("healed_share");

@@ -4,6 +4,7 @@
 #include "decomp/partition/outline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -19,6 +20,9 @@ constexpr double kStrayFactor = 0.7;  // on the gain of a plane with no sheet be
 constexpr double kWindow = 0.3;       // of the best gain: candidates that thickness ranks
 constexpr double kMostOfBox = 0.5;    // a region with more of a box than this should be cut for it
 constexpr int kMostCuts = 400;
+/// Of the diagonal: where a plane would take off a tongue, one beside it may take off a lip alone.
+constexpr std::array<double, 10> kShifts{0.005,  -0.005, 0.01,  -0.01, 0.015,
+                                         -0.015, 0.02,   -0.02, 0.03,  -0.03};
 constexpr double kNone = -1e300;
 
 /// What a cut along some bodies' borders would do to the votes of a region.
@@ -58,6 +62,7 @@ struct Choice {
     double thickness_mm = 0;
     bool limited = false;
     std::vector<std::int32_t> pieces;  ///< of the section, when limited
+    double shift_mm = 0;               ///< of the plane along its normal
 };
 
 /// What is known of one plane in one region; stays true until the region is cut.
@@ -177,12 +182,13 @@ class Cutter {
         }
         const Outline outline = outline_of(atom.part.mesh, plane(cut));
         if (might_gain && outline.area_mm2 > 0) {
-            const Choice choice{index, cut, factor * gain.net(), gain.net() / outline.area_mm2,
-                                false, {}};
+            const Choice choice{
+                index, cut, factor * gain.net(), gain.net() / outline.area_mm2, false, {}, 0};
             if (choice.thickness_mm >= least_thickness()) {
                 out.whole = choice;
             } else {
-                out.thin = true;
+                out.whole = shifted_choice(index, cut, factor);
+                out.thin = !out.whole;
             }
         }
         if (options_.limit_cuts && outline.curves > 1) {
@@ -196,6 +202,29 @@ class Cutter {
             }
         }
         return out;
+    }
+
+    /// The nearest plane beside this one that gains thickly enough.
+    [[nodiscard]] std::optional<Choice> shifted_choice(std::size_t index, std::int32_t cut,
+                                                       double factor) const {
+        const Atom& atom = atoms_[index];
+        for (const double share : kShifts) {
+            if (!options_.limit_cuts) {
+                break;
+            }
+            part::Plane beside = plane(cut);
+            beside.offset_mm += share * sheets_.diagonal_mm;
+            const Gain gain = gain_of(sides_of(atom, beside), winner(atom.tally));
+            if (factor * gain.net() <= least_gain()) {
+                continue;
+            }
+            const double area = outline_of(atom.part.mesh, beside).area_mm2;
+            if (area > 0 && gain.net() >= least_thickness() * area) {
+                return Choice{index, cut, factor * gain.net(),        gain.net() / area,
+                              false, {},  share * sheets_.diagonal_mm};
+            }
+        }
+        return std::nullopt;
     }
 
     /// The bodies on either side of a plane, from a split of a copy.
@@ -262,7 +291,7 @@ class Cutter {
                 dropped = true;
             }
         }
-        Choice out{index, cut, factor * gain_with(wanted), 0, true, {}};
+        Choice out{index, cut, factor * gain_with(wanted), 0, true, {}, 0};
         double area = 0;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             if (wanted[i] != 0) {
@@ -309,6 +338,14 @@ class Cutter {
             return own;
         }
         return complex_.nudged_off_vertices(region, own,
+                                            options_.nudge_share * sheets_.diagonal_mm);
+    }
+
+    /// A plane shifted for one region alone.
+    [[nodiscard]] part::Plane beside(std::int32_t region, const Choice& choice) const {
+        part::Plane shifted = plane(choice.plane);
+        shifted.offset_mm += choice.shift_mm;
+        return complex_.nudged_off_vertices(region, shifted,
                                             options_.nudge_share * sheets_.diagonal_mm);
     }
 
@@ -371,7 +408,7 @@ class Cutter {
                 const Look& look = looks_[i][cut];
                 if (!look.useless && !look.thin && look.entropy_gain > best_gain) {
                     best_gain = look.entropy_gain;
-                    out = Choice{i, static_cast<std::int32_t>(cut), best_gain, 0, false, {}};
+                    out = Choice{i, static_cast<std::int32_t>(cut), best_gain, 0, false, {}, 0};
                 }
             }
         }
@@ -380,7 +417,8 @@ class Cutter {
 
     Status make(const Choice& choice) {
         const std::int32_t region = atoms_[choice.atom].region;
-        const part::Plane cut = nudged(region, choice.plane);
+        const part::Plane cut =
+            choice.shift_mm != 0 ? beside(region, choice) : nudged(region, choice.plane);
         Result<std::vector<std::int32_t>> ids = choice.limited
                                                     ? complex_.split(region, cut, choice.pieces)
                                                     : complex_.split(region, cut);
@@ -397,9 +435,12 @@ class Cutter {
             look.useless = true;
             return {};
         }
-        sheets_.planes[static_cast<std::size_t>(choice.plane)].plane = cut;
-        nudged_[static_cast<std::size_t>(choice.plane)] = 1;
+        if (choice.shift_mm == 0) {
+            sheets_.planes[static_cast<std::size_t>(choice.plane)].plane = cut;
+            nudged_[static_cast<std::size_t>(choice.plane)] = 1;
+        }
         ++figures_.cuts;
+        figures_.shifted_cuts += choice.shift_mm != 0 ? 1 : 0;
         figures_.limited_cuts += choice.limited ? 1 : 0;
         const std::vector<std::uint32_t> votes = atoms_[choice.atom].votes;
         std::vector<Atom> pieces =

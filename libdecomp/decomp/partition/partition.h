@@ -28,6 +28,7 @@ struct PartitionOptions {
 struct Figures {
     int cuts = 0;
     int limited_cuts = 0;         ///< along some pieces of a cross-section only
+    int shifted_cuts = 0;         ///< beside a plane that would have taken off a tongue as well
     int skipped_tongues = 0;      ///< cuts that gain, but too thinly
     int healed = 0;               ///< pieces that went to a neighbour
     double healed_share = 0;      ///< of the volume

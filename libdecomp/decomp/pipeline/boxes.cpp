@@ -46,6 +46,7 @@ BoxFacts facts_of(const partition::Partition& found) {
     out.parts = static_cast<int>(found.parts.size());
     out.cuts = figures.cuts;
     out.limited_cuts = figures.limited_cuts;
+    out.shifted_cuts = figures.shifted_cuts;
     out.skipped_tongues = figures.skipped_tongues;
     out.healed = figures.healed;
     out.healed_share = figures.healed_share;

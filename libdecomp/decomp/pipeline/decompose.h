@@ -73,6 +73,7 @@ struct BoxFacts {
     int parts = 0;  ///< before the judge was asked
     int cuts = 0;
     int limited_cuts = 0;
+    int shifted_cuts = 0;
     int skipped_tongues = 0;
     int healed = 0;
     double healed_share = 0;
