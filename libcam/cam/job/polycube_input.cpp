@@ -1,19 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/job/maker_detail.h"
 #include "cam/orient/choose_build.h"
-#include "decomp/cells/lattice.h"
 #include "decomp/io/read_tets.h"
+#include "decomp/map/quantise.h"
+#include "decomp/tets/measure.h"
 #include "decomp/tets/pair.h"
 
-#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace cam::job {
 
 using decomp::fail;
 using decomp::Result;
+
+namespace {
+
+/// How the axes of a polycube made elsewhere lie in its shape: the rotation nearest to the mean
+/// derivative of the map.
+Eigen::Matrix3d rotation_of(const decomp::tets::Pair& pair) {
+    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < pair.tets.size(); ++i) {
+        const double volume = decomp::tets::six_volumes(pair.shape, pair.tets[i]);
+        const Eigen::Matrix3d jacobian = decomp::tets::jacobian(pair, i);
+        if (volume > 0 && jacobian.allFinite()) {
+            mean += volume * jacobian;
+        }
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(mean, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return svd.matrixU() * svd.matrixV().transpose();
+}
+
+}  // namespace
 
 profile::FdmMachine Maker::judged_machine() const {
     profile::FdmMachine machine = setup_.machine;
@@ -55,15 +76,10 @@ Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> Maker::imported_map
     for (Eigen::Vector3d& point : pair->shape) {
         point = turn * point;
     }
-    auto lattice = decomp::cells::lattice_from(*pair);
-    if (!lattice) {
-        return fail(lattice.error());
-    }
     decomp::pipeline::PolycubeMap map;
     map.pair = std::move(*pair);
-    map.lattice = std::move(*lattice);
-    // The axes of an imported polycube are those of its file, turned like the shape.
-    map.rotation = (turn / std::cbrt(turn.determinant())).transpose();
+    map.lattice = decomp::map::lattice_of(map.pair);
+    map.rotation = rotation_of(map.pair);
     map.tier = "imported";
     return std::make_shared<const decomp::pipeline::PolycubeMap>(std::move(map));
 }

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kFlatShare = 0.02;  // of the extent: facets of one chart of a foreign pair
 
+constexpr double kLevel = 1e-6;  // of the extent: no solid is as thin
+
 /// Facets in one plane that look the same way.
 struct Layer {
     double coordinate = 0;
@@ -99,7 +101,8 @@ std::vector<double> merged_planes(const std::vector<Layer>& layers, double low, 
         bool joins = i < layers.size() &&
                      layers[i].coordinate - layers[i - 1].coordinate <= merge * (high - low);
         for (std::size_t k = begin; joins && k < i; ++k) {
-            joins = !solid_between(layers[k], layers[i]);
+            joins = layers[i].coordinate - layers[k].coordinate <= kLevel * (high - low) ||
+                    !solid_between(layers[k], layers[i]);
         }
         if (joins) {
             continue;
