@@ -147,6 +147,20 @@ void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& 
         ->group("Model");
 }
 
+void add_step_options(CLI::App& app, cam::job::StepWish& wish) {
+    app.add_flag("--step", wish.wanted, "the parts as STEP solids, in step/")->group("STEP");
+    add_length(app, "--step-tol", wish.tolerance_mm,
+               "how far a solid may leave its part; default: 0.05 mm")
+        ->group("STEP");
+    app.add_option("--step-schema", wish.schema, "ap203 (no colours), ap214 or ap242")
+        ->check(CLI::IsMember({"ap203", "ap214", "ap242"}))
+        ->capture_default_str()
+        ->group("STEP");
+    app.add_flag("--step-many", wish.many_faces,
+                 "write a solid even where it needs more than 6000 faces")
+        ->group("STEP");
+}
+
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required) {
     app.add_option("--machine", machine, "profile: a name from 'hew machines', or a .toml file")
@@ -174,6 +188,7 @@ Action declare_job(CLI::App& app, const Common& /*common*/, cam::job::Extent ext
                       request.options.height_mm);
     add_solid_options(app, request.options.body, request.options.deflection_mm,
                       request.options.angle_deg);
+    add_step_options(app, request.options.step);
     app.add_option("--max-parts", request.options.max_parts, "give up beyond this number of parts")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str()

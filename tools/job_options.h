@@ -17,6 +17,9 @@ void add_model_options(CLI::App& app, std::string& unit, double& scale, std::str
 void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& deflection_mm,
                        double& angle_deg);
 
+/// Declares --step, --step-tol, --step-schema and --step-many.
+void add_step_options(CLI::App& app, cam::job::StepWish& wish);
+
 /// Declares --machine, --material and --set.
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required);

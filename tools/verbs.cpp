@@ -19,6 +19,11 @@ const std::vector<Verb>& verbs() {
          "  hew decompose statue.stl --machine prusa-mk3s --height 60cm -o out/\n"
          "  hew make statue.stl --machine prusa-mk3s --height 60cm -o out/  continues from there",
          declare_decompose},
+        {"export", "From a shape to programs",
+         "write the parts of a job as STEP solids, for other programs",
+         "  hew export out/ --step\n"
+         "  hew export out/ --step --step-tol 0.02mm --step-schema ap242",
+         declare_export},
         {"slice", "From a shape to programs",
          "write the program of one part of a job, or of a lone mesh",
          "  hew slice out/ --part P03\n"

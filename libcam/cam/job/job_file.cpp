@@ -46,6 +46,13 @@ Json options_json(const JobOptions& options) {
     json["polycube"] = options.polycube;
     json["max_size_mm"] = options.max_size_mm ? numbers(*options.max_size_mm) : Json(nullptr);
     json["settings"] = options.settings;
+    if (options.step.wanted) {
+        json["step"] = {
+            {"tolerance_mm",
+             options.step.tolerance_mm ? Json(*options.step.tolerance_mm) : Json(nullptr)},
+            {"schema", options.step.schema},
+            {"many_faces", options.step.many_faces}};
+    }
     return json;
 }
 
@@ -75,6 +82,15 @@ JobOptions read_options(const Json& job) {
         options.max_size_mm = vector3(json.at("max_size_mm"));
     }
     options.settings = json.at("settings").get<std::vector<std::string>>();
+    if (json.contains("step")) {
+        const Json& step = json.at("step");
+        options.step.wanted = true;
+        if (!step.at("tolerance_mm").is_null()) {
+            options.step.tolerance_mm = step.at("tolerance_mm").get<double>();
+        }
+        options.step.schema = step.at("schema");
+        options.step.many_faces = step.at("many_faces");
+    }
     return options;
 }
 
@@ -295,6 +311,33 @@ PlateFacts read_plate(const Json& json) {
     return plate;
 }
 
+Json step_part_json(const StepPartFacts& part) {
+    return {{"id", part.id},
+            {"file", "step/" + part.id + ".step"},
+            {"bytes", part.bytes},
+            {"faces", part.faces},
+            {"planes", part.planes},
+            {"cylinders", part.cylinders},
+            {"removed_points", part.removed_points},
+            {"decimation_mm", part.decimation_mm},
+            {"sagitta_mm", part.sagitta_mm},
+            {"volume_mm3", part.volume_mm3}};
+}
+
+StepPartFacts read_step_part(const Json& json) {
+    StepPartFacts part;
+    part.id = json.at("id");
+    part.bytes = json.at("bytes");
+    part.faces = json.at("faces");
+    part.planes = json.at("planes");
+    part.cylinders = json.at("cylinders");
+    part.removed_points = json.at("removed_points");
+    part.decimation_mm = json.at("decimation_mm");
+    part.sagitta_mm = json.at("sagitta_mm");
+    part.volume_mm3 = json.at("volume_mm3");
+    return part;
+}
+
 Json stage_json(const StageRecord& stage) {
     Json json{{"name", stage.name}, {"key", stage.key}, {"outputs", Json::array()}};
     for (const OutputFile& output : stage.outputs) {
@@ -326,6 +369,11 @@ JobFile read_all(const Json& json) {
     }
     for (const Json& plate : json.at("plates")) {
         job.plates.push_back(read_plate(plate));
+    }
+    if (json.contains("step")) {
+        for (const Json& part : json.at("step")) {
+            job.step_parts.push_back(read_step_part(part));
+        }
     }
     for (const Json& stage : json.at("stages")) {
         job.stages.push_back(read_stage(stage));
@@ -379,6 +427,12 @@ std::string job_json(const JobFile& job) {
     json["plates"] = Json::array();
     for (const PlateFacts& plate : job.plates) {
         json["plates"].push_back(plate_json(plate));
+    }
+    if (job.options.step.wanted) {
+        json["step"] = Json::array();
+        for (const StepPartFacts& part : job.step_parts) {
+            json["step"].push_back(step_part_json(part));
+        }
     }
     json["stages"] = Json::array();
     for (const StageRecord& stage : job.stages) {

@@ -20,6 +20,16 @@
 /// schema.
 namespace cam::job {
 
+/// STEP files of the parts, as `--step` asks for them.
+struct StepWish {
+    bool wanted = false;
+    std::optional<double> tolerance_mm;  ///< empty: kPrintedStepMm
+    std::string schema = "ap214";        ///< ap203, ap214, ap242
+    bool many_faces = false;             ///< more faces than CAD programs bear are no error
+
+    bool operator==(const StepWish&) const = default;
+};
+
 /// What was asked of the pipeline; everything here may change its results.
 struct JobOptions {
     std::string machine;                ///< profile name or path
@@ -38,6 +48,7 @@ struct JobOptions {
     bool boxes = false;                 ///< every box of the polycube stays a part
     std::vector<std::string> polycube;  ///< files of shape and polycube, tets; empty: made here
     std::optional<Eigen::Vector3d> max_size_mm;  ///< of a part as it stands, besides the chamber
+    StepWish step;
 
     bool operator==(const JobOptions&) const = default;
 };
@@ -78,6 +89,19 @@ struct DecompositionFacts {
     std::vector<decomp::part::Interface> interfaces;
     std::vector<std::string> notes;
     std::optional<decomp::pipeline::BoxFacts> polycube;  ///< when there was one
+};
+
+/// A part as a STEP solid: step/ID.step.
+struct StepPartFacts {
+    std::string id;
+    std::uint64_t bytes = 0;
+    std::size_t faces = 0;
+    std::size_t planes = 0;  ///< of more than one triangle
+    std::size_t cylinders = 0;
+    std::size_t removed_points = 0;
+    double decimation_mm = 0;  ///< distance to the part, either way
+    double sagitta_mm = 0;     ///< of the chords that cylinders replace
+    double volume_mm3 = 0;     ///< as the geometry kernel has it
 };
 
 /// A part on a plate: its part bed frame stands at `offset_mm` on the bed, unturned.
@@ -138,6 +162,7 @@ struct JobFile {
     DecompositionFacts decomposition;
     std::vector<PartFacts> parts;
     std::vector<PlateFacts> plates;
+    std::vector<StepPartFacts> step_parts;
     std::vector<StageRecord> stages;
 
     [[nodiscard]] const StageRecord* stage(std::string_view name) const;

@@ -84,7 +84,12 @@ Result<Start> start_of(const MakeRequest& request) {
     }
     job->version = HEW_VERSION;
     job->input = input;
+    // STEP files that 'hew export' once wrote are kept up to date.
+    const StepWish earlier_wish = job->options.step;
     job->options = request.options;
+    if (!job->options.step.wanted) {
+        job->options.step = earlier_wish;
+    }
     job->options.material = setup->material.name;
     job->profile_sha256 = setup->hash;
     return Start{std::move(*job), std::move(*setup), std::move(*bytes)};

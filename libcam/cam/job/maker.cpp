@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/job/maker_detail.h"
 #include "cam/job/report.h"
+#include "cam/job/step_files.h"
 #include "cam/orient/choose_build.h"
 #include "cam/verify/proof_json.h"
 #include "decomp/base/file.h"
@@ -216,6 +217,15 @@ Status Maker::make_all() {
             }
         }
     }
+    if (job_.options.step.wanted) {
+        if (auto done = step("step", step_key(job_, stages_), 0.3 * kRestWeight,
+                             [&](Run& run) { return step_files(request_.directory, job_, run); });
+            !done) {
+            return done;
+        }
+    } else {
+        job_.step_parts.clear();
+    }
     const auto report = [&](Run&) -> Files {
         return std::vector<FileBytes>{{"report.json", report_json(job_)}};
     };
@@ -251,6 +261,9 @@ std::vector<std::string> Maker::kept_stages(bool& complete) const {
         if (!all) {
             return kept;
         }
+    }
+    if (job_.options.step.wanted && !holds("step", step_key(job_, stages_))) {
+        return kept;
     }
     complete = holds("report", report_key());
     return kept;

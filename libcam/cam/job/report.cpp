@@ -127,6 +127,19 @@ std::string report_json(const JobFile& job) {
     for (const PlateFacts& plate : job.plates) {
         json["plates"].push_back(plate_json(plate));
     }
+    if (job.options.step.wanted) {
+        json["step"] = Json::array();
+        for (const StepPartFacts& part : job.step_parts) {
+            json["step"].push_back({{"file", "step/" + part.id + ".step"},
+                                    {"bytes", part.bytes},
+                                    {"faces", part.faces},
+                                    {"planes", part.planes},
+                                    {"cylinders", part.cylinders},
+                                    {"decimation_mm", rounded(part.decimation_mm, 6)},
+                                    {"sagitta_mm", rounded(part.sagitta_mm, 6)},
+                                    {"volume_mm3", rounded(part.volume_mm3, 3)}});
+        }
+    }
     const Totals totals = totals_of(job);
     json["totals"] = {{"parts", totals.parts},
                       {"plates", totals.plates},

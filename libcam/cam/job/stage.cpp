@@ -187,6 +187,13 @@ decomp::Status StageRunner::write_job() {
     return decomp::write_file(directory_ / "job.json", job_json(job_), decomp::Overwrite::Allow);
 }
 
+void StageRunner::keep_others() {
+    visited_.clear();
+    for (const StageRecord& stage : job_.stages) {
+        visited_.push_back(stage.name);
+    }
+}
+
 decomp::Status StageRunner::finish() {
     std::vector<StageRecord> ordered;
     std::set<std::string> wanted;

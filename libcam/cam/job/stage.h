@@ -81,6 +81,9 @@ class StageRunner {
     /// writes the job as finished. @error file.unwritable
     [[nodiscard]] decomp::Status finish();
 
+    /// Counts the stages of earlier runs as visited: this run has made one stage alone.
+    void keep_others();
+
     /// Is the stage recorded under this key with all its outputs intact? Cost: reading the outputs.
     [[nodiscard]] bool is_done(const std::string& name, const StageKey& key) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "decomp/brep/read_brep.h"
+#include "decomp/brep/write_step.h"
 
 namespace decomp::brep {
 
@@ -10,6 +11,8 @@ namespace decomp::brep {
 struct Kernel {
     Result<std::vector<Body>> (*read)(std::string_view bytes, FileKind kind, std::string_view name,
                                       const BrepReadOptions& options, const Run& run);
+    Result<StepFile> (*write)(const std::vector<StepBody>& bodies, const std::string& title,
+                              StepSchema schema, const Run& run);
 };
 
 using KernelEntry = const Kernel* (*)();

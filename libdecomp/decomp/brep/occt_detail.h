@@ -2,6 +2,9 @@
 #pragma once
 
 #include "decomp/brep/read_brep.h"
+#include "decomp/brep/write_step.h"
+
+#include <mutex>
 
 class TopoDS_Shape;
 
@@ -9,13 +12,21 @@ class TopoDS_Shape;
 namespace decomp::brep {
 
 /// Sets the kernel up once for the process: silent, millimetres, and the reader's repair without
-/// its quadratic steps.
-void prepare_occt();
+/// its quadratic steps. Gives the lock under which the kernel must be used: it keeps its parameters
+/// in statics.
+[[nodiscard]] std::unique_lock<std::mutex> prepare_occt();
 
 [[nodiscard]] Result<std::vector<Body>> read_with_occt(std::string_view bytes, FileKind kind,
                                                        std::string_view name,
                                                        const BrepReadOptions& options,
                                                        const Run& run);
+
+[[nodiscard]] Result<StepFile> write_with_occt(const std::vector<StepBody>& bodies,
+                                               const std::string& title, StepSchema schema,
+                                               const Run& run);
+
+/// The kernel's shape of a solid: a solid, or a compound where it has several outer shells.
+[[nodiscard]] TopoDS_Shape shape_of(const solid::Solid& solid);
 
 /// Cuts a solid into triangles which share points along common edges.
 /// @error brep.not_meshed a face defies the mesher

@@ -292,7 +292,9 @@ Result<std::vector<Body>> read_bodies(std::string_view bytes, FileKind kind, std
 
 }  // namespace
 
-void prepare_occt() {
+std::unique_lock<std::mutex> prepare_occt() {
+    static std::mutex one_at_a_time;
+    std::unique_lock lock(one_at_a_time);
     static std::once_flag once;
     std::call_once(once, [] {
         Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
@@ -307,15 +309,14 @@ void prepare_occt() {
         settings->SetResource("FromSTEP.FixShape.FixFaceOrientationMode", 0);
         settings->SetResource("FromSTEP.FixShape.FixShellOrientationMode", 0);
     });
+    return lock;
 }
 
 Result<std::vector<Body>> read_with_occt(std::string_view bytes, FileKind kind,
                                          std::string_view name, const BrepReadOptions& options,
                                          const Run& run) {
-    static std::mutex one_at_a_time;  // the kernel's reader keeps its parameters in statics
-    const std::lock_guard lock(one_at_a_time);
+    const auto lock = prepare_occt();
     try {
-        prepare_occt();
         return read_bodies(bytes, kind, name, options, run);
     } catch (const Standard_Failure& failure) {
         return unreadable(name, failure.GetMessageString());

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "decomp/solid/solid.h"
+
+#include <optional>
+#include <vector>
+
+namespace decomp::solid {
+
+struct BoundedCurve {
+    Curve curve;
+    double t0 = 0;
+    double t1 = 0;
+};
+
+/// The curve in which two surfaces meet, along a path near it: from its first point to its last, in
+/// its sense; all round where `closed`. Lines, circles and ellipses are known; nothing where the
+/// surfaces meet in another curve, or not along this path.
+[[nodiscard]] std::optional<BoundedCurve> curve_along(const Surface& a, const Surface& b,
+                                                      const std::vector<Eigen::Vector3d>& path,
+                                                      bool closed);
+
+}  // namespace decomp::solid

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/brep/write_step.h"
+
+#include "decomp/base/hash.h"
+#include "decomp/mesh/measure.h"
+#include "decomp/solid/make_solid.h"
+#include "tests/support/machined.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+namespace {
+
+using decomp::brep::BodyFigures;
+using decomp::brep::StepBody;
+using decomp::brep::StepSchema;
+using decomp::mesh::TriMesh;
+using std::numbers::pi;
+
+decomp::solid::Solid solid_of(const TriMesh& mesh,
+                              const decomp::solid::SolidOptions& options = {}) {
+    const auto made = decomp::solid::make_solid({"P01", mesh, {}}, options, decomp::Run{});
+    EXPECT_TRUE(made) << (made ? "" : made.error().text());
+    return made ? made->solid : decomp::solid::Solid{};
+}
+
+std::string written(const std::vector<StepBody>& bodies, StepSchema schema = StepSchema::Ap214) {
+    const auto file = decomp::brep::write_step(bodies, "title", schema, decomp::Run{});
+    EXPECT_TRUE(file) << (file ? "" : file.error().text());
+    for (std::size_t i = 0; file && i < bodies.size(); ++i) {
+        EXPECT_TRUE(file->figures[i].valid) << bodies[i].name;
+    }
+    return file ? file->text : "";
+}
+
+/// What the kernel's reader makes of the text.
+std::vector<decomp::brep::Body> read_again(const std::string& text) {
+    const auto bodies =
+        decomp::brep::read_brep(text, "again.step", {.measured = true}, decomp::Run{});
+    EXPECT_TRUE(bodies) << (bodies ? "" : bodies.error().text());
+    return bodies ? *bodies : std::vector<decomp::brep::Body>{};
+}
+
+TEST(StepWriter, ADrilledPlateComesBackWithATrueHole) {
+    const auto bodies =
+        read_again(written({{"P01", solid_of(tests::drilled_plate(40, 30, 10, 6, 24))}}));
+    ASSERT_EQ(bodies.size(), 1);
+    const BodyFigures& figures = bodies[0].figures;
+    EXPECT_EQ(bodies[0].name, "P01");
+    EXPECT_TRUE(figures.valid && figures.closed);
+    EXPECT_EQ(figures.faces, 7);
+    ASSERT_EQ(figures.cylinder_radii_mm.size(), 1);
+    EXPECT_NEAR(figures.cylinder_radii_mm[0], 6, 1e-9);
+    const double volume = 40 * 30 * 10 - pi * 36 * 10;
+    EXPECT_NEAR(figures.volume_mm3, volume, 1e-9 * volume);
+}
+
+TEST(StepWriter, WithoutCurvesTheVolumeIsTheMeshs) {
+    for (const TriMesh& mesh :
+         {tests::box({0, 0, 0}, {10, 20, 30}), tests::sphere(20, 24, 11),
+          tests::torus(20, 6, 24, 12), tests::drilled_plate(40, 30, 10, 6, 24)}) {
+        const auto bodies =
+            read_again(written({{"P01", solid_of(mesh, {.detail = decomp::solid::Detail::Flat})}}));
+        ASSERT_EQ(bodies.size(), 1);
+        EXPECT_TRUE(bodies[0].figures.valid && bodies[0].figures.closed);
+        const double volume = decomp::mesh::volume_mm3(mesh);
+        EXPECT_NEAR(bodies[0].figures.volume_mm3, volume, 1e-9 * volume);
+    }
+}
+
+TEST(StepWriter, ObliqueCylindersCavitiesAndSeveralPiecesAreSound) {
+    TriMesh slanted = tests::round_bar(5, 40, 48);
+    for (Eigen::Vector3d& p : slanted.points) {
+        p.z() += p.z() > 20 ? 0.4 * p.x() : 0;
+    }
+    auto bodies = read_again(written({{"bar", solid_of(slanted)}}));
+    ASSERT_EQ(bodies.size(), 1);
+    EXPECT_TRUE(bodies[0].figures.valid && bodies[0].figures.closed);
+    EXPECT_NEAR(bodies[0].figures.volume_mm3, pi * 25 * 40, 1e-6 * pi * 25 * 40);
+
+    TriMesh inner = tests::box({5, 5, 5}, {15, 15, 15});
+    for (auto& t : inner.triangles) {
+        std::swap(t[1], t[2]);
+    }
+    const TriMesh hollow = tests::joined(tests::box({0, 0, 0}, {20, 20, 20}), inner);
+    bodies = read_again(written({{"hollow", solid_of(hollow)}}));
+    ASSERT_EQ(bodies.size(), 1);
+    EXPECT_NEAR(bodies[0].figures.volume_mm3, 7000, 1e-5);
+
+    const TriMesh two =
+        tests::joined(tests::box({0, 0, 0}, {1, 1, 1}), tests::box({5, 0, 0}, {7, 1, 1}));
+    bodies = read_again(written({{"two", solid_of(two)}}));
+    ASSERT_EQ(bodies.size(), 2);
+    EXPECT_NEAR(bodies[0].figures.volume_mm3 + bodies[1].figures.volume_mm3, 3, 1e-9);
+}
+
+TEST(StepWriter, AnAssemblyKeepsNamesColoursAndPlaces) {
+    StepBody base{"P01", solid_of(tests::box({0, 0, 0}, {10, 10, 10})),
+                  std::array<double, 3>{1, 0.5, 0}};
+    StepBody bar{"P02", solid_of(tests::round_bar(2, 8, 32)), std::array<double, 3>{0, 0, 1}};
+    bar.placed_from_solid.translate(Eigen::Vector3d(20, 0, 0));
+    bar.placed_from_solid.rotate(Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitX()));
+    for (const StepSchema schema : {StepSchema::Ap203, StepSchema::Ap214, StepSchema::Ap242}) {
+        const auto bodies = read_again(written({base, bar}, schema));
+        ASSERT_EQ(bodies.size(), 2);
+        EXPECT_EQ(bodies[0].name, "P01");
+        EXPECT_EQ(bodies[1].name, "P02");
+        EXPECT_NEAR((bodies[1].figures.min_mm - Eigen::Vector3d(18, -8, -2)).norm(), 0, 1e-6);
+        EXPECT_EQ(bodies[0].colour.has_value(), schema != StepSchema::Ap203);
+        if (bodies[0].colour) {
+            EXPECT_NEAR((*bodies[0].colour)[1], 0.5, 1e-6);
+        }
+    }
+}
+
+TEST(StepWriter, EachSchemaNamesItself) {
+    const StepBody box{"P01", solid_of(tests::box({0, 0, 0}, {1, 1, 1}))};
+    EXPECT_NE(written({box}, StepSchema::Ap203).find("CONFIG_CONTROL_DESIGN"), std::string::npos);
+    EXPECT_NE(written({box}, StepSchema::Ap214).find("AUTOMOTIVE_DESIGN"), std::string::npos);
+    EXPECT_NE(written({box}, StepSchema::Ap242).find("AP242"), std::string::npos);
+    EXPECT_FALSE(decomp::brep::parse_schema("ap2014"));
+}
+
+TEST(StepWriter, EqualBodiesGiveEqualBytesAndNoClock) {
+    std::vector<StepBody> bodies;
+    for (int i = 0; i < 12; ++i) {
+        const double size = 10 + i;
+        bodies.push_back({"P" + std::to_string(10 + i),
+                          solid_of(tests::drilled_plate(40, 30, size, 6, 24)),
+                          std::array<double, 3>{i / 12.0, 0.5, 1 - i / 12.0}});
+    }
+    const std::string first = written(bodies);
+    const std::vector<std::string> clutter(1000, std::string(100, 'x'));
+    EXPECT_EQ(decomp::sha256_hex(first), decomp::sha256_hex(written(bodies)));
+    EXPECT_NE(first.find("'2000-01-01T00:00:00'"), std::string::npos);
+    EXPECT_FALSE(std::regex_search(first, std::regex("20[1-9][0-9]-[01][0-9]-[0-3][0-9]T")));
+}
+
+TEST(StepWriter, AFaceTurnedInsideOutIsNotCalledValid) {
+    auto solid = solid_of(tests::box({0, 0, 0}, {1, 1, 1}));
+    for (auto& loop : solid.faces[0].loops) {
+        std::reverse(loop.begin(), loop.end());
+        for (auto& use : loop) {
+            use.reversed = !use.reversed;
+        }
+    }
+    const auto file =
+        decomp::brep::write_step({{"P01", solid}}, "title", StepSchema::Ap214, decomp::Run{});
+    ASSERT_TRUE(file);
+    EXPECT_FALSE(file->figures[0].valid && std::abs(file->figures[0].volume_mm3 - 1) < 1e-9);
+}
+
+}  // namespace
