@@ -23,6 +23,7 @@ struct Rim {
 struct Side {
     std::uint32_t neighbour;
     std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> facets;
 };
 
 class Survey {
@@ -39,9 +40,6 @@ class Survey {
             chart.neighbours.erase(std::unique(chart.neighbours.begin(), chart.neighbours.end()),
                                    chart.neighbours.end());
         }
-        std::sort(out_.opposite.begin(), out_.opposite.end());
-        out_.opposite.erase(std::unique(out_.opposite.begin(), out_.opposite.end()),
-                            out_.opposite.end());
         find_turning_points();
         return std::move(out_);
     }
@@ -91,10 +89,6 @@ class Survey {
                 const std::uint32_t a = out_.chart_of[f];
                 const std::uint32_t b = out_.chart_of[g];
                 out_.charts[a].neighbours.push_back(b);
-                if (labels_[g] == opposite(labels_[f]) && f < g) {
-                    out_.opposite.emplace_back(std::min(a, b), std::max(a, b));
-                    out_.opposite_facets.emplace_back(f, g);
-                }
             }
         }
     }
@@ -170,9 +164,10 @@ class Survey {
                 if (!sides.empty()) {
                     sides.back().vertices.push_back(start(rim));
                 }
-                sides.push_back({across(rim), {}});
+                sides.push_back({across(rim), {}, {}});
             }
             sides.back().vertices.push_back(start(rim));
+            sides.back().facets.push_back(rim.facet);
         }
         sides.back().vertices.push_back(start(loop.front()));
         Chart& chart = out_.charts[id];
@@ -180,7 +175,8 @@ class Survey {
         chart.deficiency += deficiency(chart.label, sides);
         for (Side& side : sides) {
             if (id < side.neighbour) {
-                out_.boundaries.push_back({id, side.neighbour, std::move(side.vertices), closed});
+                out_.boundaries.push_back(
+                    {id, side.neighbour, std::move(side.vertices), std::move(side.facets), closed});
             }
         }
     }
@@ -212,6 +208,8 @@ class Survey {
                 run_axis(out_.charts[boundary.left].label, out_.charts[boundary.right].label);
             if (axis >= 0) {
                 find_turning_points(b, axis);
+            } else {
+                out_.opposite.push_back(b);
             }
         }
     }

@@ -5,7 +5,6 @@
 #include "decomp/labels/labeling.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 /// Inside the room: the chart graph of a labelling.
@@ -27,6 +26,7 @@ struct Boundary {
     std::uint32_t left = 0;  ///< chart on its left, seen from outside; left < right
     std::uint32_t right = 0;
     std::vector<std::uint32_t> vertices;  ///< in order; first == last where it has no corner
+    std::vector<std::uint32_t> facets;    ///< of the left chart, one for each edge
     bool closed = false;                  ///< runs back into itself without any corner
 };
 
@@ -45,9 +45,7 @@ struct Layout {
     std::vector<std::uint32_t> corners;      ///< vertices where three boundaries or more meet
     std::vector<std::uint32_t> bad_corners;  ///< of them, those with more than three
     std::vector<TurningPoint> turning_points;
-    /// Pairs of charts with opposite labels that touch along an edge, and facet pairs across.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite_facets;
+    std::vector<std::uint32_t> opposite;  ///< boundaries between charts with opposite labels
 
     /// 0 when the labelling is locally valid.
     [[nodiscard]] int violations() const;

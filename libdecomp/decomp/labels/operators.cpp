@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
 
 namespace decomp::labels {
 
@@ -97,6 +95,43 @@ double gain_of(const Scene& scene, const std::vector<std::uint32_t>& disc, AxisL
     return area > 0 ? gain / area : 0;
 }
 
+/// The facets on either side of a boundary.
+std::vector<std::uint32_t> both_sides(const Facets& facets, const Boundary& boundary) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = 0; i < boundary.facets.size(); ++i) {
+        const std::uint32_t f = boundary.facets[i];
+        out.push_back(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (facets.corners[f].at(k) == boundary.vertices[i] &&
+                facets.corners[f].at((k + 1) % 3) == boundary.vertices[i + 1]) {
+                out.push_back(facets.neighbours[f].at(k));
+            }
+        }
+    }
+    sort_unique(out);
+    return out;
+}
+
+/// Facets get the label of the two other axes that is nearest to their normal: four charts around a
+/// rim or in a hole.
+Proposal collar(const Scene& scene, const std::vector<std::uint32_t>& band, int axis) {
+    Proposal proposal;
+    for (const auto f : band) {
+        const Eigen::Vector3d& normal = scene.energy.facets().normals[f];
+        AxisLabel best = label_of((axis + 1) % 3, 1);
+        double most = -2;
+        for (const AxisLabel label : across_from(label_of(axis, 1))) {
+            const double along = sign_of(label) * normal[axis_of(label)];
+            if (along > most) {
+                most = along;
+                best = label;
+            }
+        }
+        proposal.forced.emplace_back(f, best);
+    }
+    return proposal;
+}
+
 class ChartProposals {
   public:
     ChartProposals(const Scene& scene, const Consider& consider, std::uint32_t chart)
@@ -110,6 +145,9 @@ class ChartProposals {
     bool all() {
         const AxisLabel own = scene_.layout.charts[chart_].label;
         if (!consider_(deletion(scene_, chart_))) {
+            return false;
+        }
+        if (!collars()) {
             return false;
         }
         std::array<std::vector<std::vector<std::uint32_t>>, kInsertRadii.size()> discs;
@@ -136,6 +174,26 @@ class ChartProposals {
         const auto& around = scene_.layout.charts[chart_].neighbours;
         return std::any_of(around.begin(), around.end(),
                            [&](std::uint32_t n) { return scene_.layout.charts[n].label == label; });
+    }
+
+    /// Bands of several widths along each boundary loop that the chart shares with one neighbour.
+    bool collars() {
+        for (const Boundary& boundary : scene_.layout.boundaries) {
+            const bool own = boundary.left == chart_ || boundary.right == chart_;
+            if (!own || !boundary.closed) {
+                continue;
+            }
+            const auto seam = both_sides(facets_, boundary);
+            for (int rings = 0; rings <= kWidestStrip; ++rings) {
+                const auto band = grown(facets_, seam, scaled_rings(facets_, rings));
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (!consider_(collar(scene_, band, axis))) {
+                        return false;
+                    }
+                }
+            }
+        }
+        return true;
     }
 
     /// At the places where normals speak most for the label, some way apart.
@@ -200,16 +258,10 @@ void propose_for_charts(const Scene& scene, const Consider& consider) {
 
 void propose_for_opposites(const Scene& scene, const Consider& consider) {
     const Facets& facets = scene.energy.facets();
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> touching;
-    for (const auto& [f, g] : scene.layout.opposite_facets) {
-        const auto pair = std::minmax(scene.layout.chart_of[f], scene.layout.chart_of[g]);
-        auto& seam = touching[pair];
-        seam.push_back(f);
-        seam.push_back(g);
-    }
-    for (auto& [pair, seam] : touching) {
-        sort_unique(seam);
-        const AxisLabel own = scene.layout.charts[pair.first].label;
+    for (const auto b : scene.layout.opposite) {
+        const Boundary& boundary = scene.layout.boundaries[b];
+        const AxisLabel own = scene.layout.charts[boundary.left].label;
+        std::vector<std::uint32_t> seam = both_sides(facets, boundary);
         for (int rings = 0; rings <= kWidestStrip; ++rings) {
             const auto strip = grown(facets, seam, scaled_rings(facets, rings));
             for (const AxisLabel label : across_from(own)) {
@@ -222,13 +274,13 @@ void propose_for_opposites(const Scene& scene, const Consider& consider) {
                 neither.forbidden.emplace_back(f, own);
                 neither.forbidden.emplace_back(f, opposite(own));
             }
-            if (!consider(neither)) {
+            if (!consider(neither) || !consider(collar(scene, strip, axis_of(own)))) {
                 return;
             }
         }
-        const bool first_is_smaller =
-            scene.layout.charts[pair.first].area < scene.layout.charts[pair.second].area;
-        if (!consider(deletion(scene, first_is_smaller ? pair.first : pair.second))) {
+        const bool left_is_smaller =
+            scene.layout.charts[boundary.left].area < scene.layout.charts[boundary.right].area;
+        if (!consider(deletion(scene, left_is_smaller ? boundary.left : boundary.right))) {
             return;
         }
     }

@@ -76,12 +76,8 @@ class Search {
         const Scene scene{energy_, now_.labels, now_.layout};
         const Consider consider = [&](const Proposal& proposal) { return weigh(proposal); };
         propose_for_charts(scene, consider);
-        if (!good_enough()) {
-            propose_for_opposites(scene, consider);
-        }
-        if (!good_enough()) {
-            propose_for_corners(scene, consider);
-        }
+        propose_for_opposites(scene, consider);
+        propose_for_corners(scene, consider);
         if (now_.violations == 0) {
             propose_for_turns(scene, consider);
         }
@@ -90,8 +86,6 @@ class Search {
         }
         return found_;
     }
-
-    [[nodiscard]] bool good_enough() const { return gain_ > kViolationWorth / 2; }
 
     /// Solves near the change and keeps the outcome if it is the best of the round.
     bool weigh(const Proposal& proposal) {
@@ -107,7 +101,7 @@ class Search {
                 compare(proposal, state);
             }
         }
-        return !(now_.violations > 0 && good_enough()) && !run_.cancelled();
+        return !run_.cancelled();
     }
 
     static std::vector<std::uint32_t> apply(const Proposal& proposal, State& state) {
@@ -196,9 +190,9 @@ Labeling thinned_out(const Energy& energy, Labeling labels, const Run& run) {
             }
         }
         std::vector<std::uint32_t> seam;
-        for (const auto& [f, g] : layout.opposite_facets) {
-            seam.push_back(f);
-            seam.push_back(g);
+        for (const auto b : layout.opposite) {
+            const auto& facets_along = layout.boundaries[b].facets;
+            seam.insert(seam.end(), facets_along.begin(), facets_along.end());
         }
         if (!deleted && seam.empty()) {
             break;  // only corners of many boundaries are left: nothing to delete

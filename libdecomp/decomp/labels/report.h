@@ -14,7 +14,7 @@ struct LabelReport {
     int corners = 0;              ///< vertices where three boundaries or more meet
     int turning_points = 0;       ///< boundaries turn back there by more than 1.5 % of the diagonal
     int invalid_charts = 0;       ///< with a loop that lacks two neighbours along either other axis
-    int opposite_boundaries = 0;  ///< pairs of charts with opposite labels that touch
+    int opposite_boundaries = 0;  ///< boundaries between charts with opposite labels
     int bad_corners = 0;          ///< corners where more than three boundaries meet
     double fidelity = 0;  ///< mean of the normals' components along their labels: 1 on a polycube
 

@@ -31,9 +31,30 @@ constexpr double kMostTriangles = 10000;
 constexpr double kVolumeError = 0.03;
 constexpr double kDistanceEdges = 2;  // the proxy may lie so many edge lengths off
 constexpr double kShellEdges = 2;     // a shell smaller than that is dropped
+constexpr std::size_t kTunnelSamples = 6000;
+constexpr double kLeastTunnelShare = 0.002;  // of the area; less is noise in a crease
+constexpr double kMostTunnelShare = 0.05;    // more would make the surface fine altogether
 constexpr std::size_t kDistanceSamples = 4000;
 constexpr double kWrapAlphaEdges = 0.7;
 constexpr double kWrapOffsetShare = 1.0 / 30;  // of alpha
+
+constexpr double kNothingSharp = 180;
+
+/// One way to make the surface; the next is taken when it comes out unsound.
+struct Rung {
+    double finer;     // factor of the edge length
+    bool sharp;       // keep sharp edges
+    bool from_input;  // rather than from the collapsed surface
+};
+
+// A little finer, or without edges to keep, is another mesh altogether, and mostly a sound one.
+constexpr std::array<Rung, 7> kLadder{{{1, true, false},
+                                       {0.93, true, false},
+                                       {1, false, false},
+                                       {1, true, true},
+                                       {1, false, true},
+                                       {0.71, false, true},
+                                       {0.5, false, true}}};
 
 /// The edge length at which equilateral triangles cover the surface.
 double edge_for(const mesh::TriMesh& surface, double triangles) {
@@ -124,18 +145,17 @@ class Maker {
         const auto target = static_cast<double>(options_.triangles);
         const double first =
             edge_for(kept_, options_.triangles > 0 ? target : triangles_for(coarse_));
-        const std::array<std::pair<double, bool>, 4> ladder{
-            {{first, true}, {first, false}, {first / std::sqrt(2.0), false}, {first / 2, false}}};
-        for (const auto& [edge, from_coarse] : ladder) {
+        has_narrow_tunnels_ = narrow_tunnels(kNarrowEdges * first);
+        for (const Rung& rung : kLadder) {
             if (run_.cancelled()) {
                 return cancelled();
             }
-            if (from_coarse || coarse_.triangles.size() < kept_.triangles.size() || edge < first) {
-                if (auto proxy = attempt(from_coarse ? coarse_ : kept_, edge, false)) {
-                    return std::move(*proxy);
-                }
-                run_.log(LogLevel::Debug, "a stand-in surface was refused: " + reason_);
+            if (auto proxy =
+                    attempt(rung.from_input ? kept_ : coarse_, rung.finer * first,
+                            rung.sharp ? options_.sharp_angle_deg : kNothingSharp, false)) {
+                return std::move(*proxy);
             }
+            run_.log(LogLevel::Debug, "a stand-in surface was refused: " + reason_);
         }
         for (const double edge : {first, first / std::sqrt(2.0)}) {
             if (run_.cancelled()) {
@@ -146,7 +166,7 @@ class Maker {
             if (!around) {
                 continue;
             }
-            if (auto proxy = attempt(*around, edge, true)) {
+            if (auto proxy = attempt(*around, edge, kNothingSharp, true)) {
                 run_.warn("the stand-in surface was made around a wrap: " + reason_);
                 return std::move(*proxy);
             }
@@ -198,9 +218,31 @@ class Maker {
         return std::nullopt;
     }
 
-    std::optional<Proxy> attempt(const mesh::TriMesh& from, double edge_mm, bool wrapped) {
-        auto surface =
-            remeshed(from, {.edge_mm = edge_mm, .sharp_angle_deg = options_.sharp_angle_deg});
+    /// Whether a small part of the surface lines tunnels narrower than that.
+    [[nodiscard]] bool narrow_tunnels(double narrow_mm) const {
+        const mesh::TopologyReport is = mesh::check_topology(kept_);
+        if (is.euler_characteristic == 2 * static_cast<long>(is.components)) {
+            return false;  // no handle, no tunnel
+        }
+        const std::size_t stride = coarse_.triangles.size() / kTunnelSamples + 1;
+        const std::vector<double> widths = tunnel_widths_mm(coarse_, stride);
+        double narrow = 0;
+        for (std::size_t i = 0; i < widths.size(); ++i) {
+            if (widths[i] < narrow_mm) {
+                narrow +=
+                    static_cast<double>(stride) * mesh::double_area_normal(coarse_, i).norm() / 2;
+            }
+        }
+        const double share = narrow / mesh::area_mm2(coarse_);
+        run_.log(LogLevel::Debug, "narrow tunnels line a share of " + std::to_string(share));
+        return share > kLeastTunnelShare && share < kMostTunnelShare;
+    }
+
+    std::optional<Proxy> attempt(const mesh::TriMesh& from, double edge_mm, double sharp_deg,
+                                 bool wrapped) {
+        auto surface = remeshed(from, {.edge_mm = edge_mm,
+                                       .sharp_angle_deg = sharp_deg,
+                                       .fine_tunnels = has_narrow_tunnels_});
         if (!surface) {
             reason_ = "remeshing broke down";
             return std::nullopt;
@@ -256,6 +298,7 @@ class Maker {
     mesh::TriMesh kept_;    // the volume without the shells that are dropped
     mesh::TriMesh coarse_;  // kept_, collapsed
     std::size_t dropped_ = 0;
+    bool has_narrow_tunnels_ = false;
     std::string reason_;  // why the last attempt was refused
 };
 

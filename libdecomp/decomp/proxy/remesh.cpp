@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/proxy/remesh.h"
 
+#include "decomp/proxy/thickness.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <exception>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace decomp::proxy {
@@ -29,6 +32,8 @@ using EdgeFlags = Surface::Property_map<Surface::Edge_index, bool>;
 
 constexpr unsigned kRemeshPasses = 4;
 constexpr unsigned kRelaxationSteps = 2;
+constexpr double kTunnelEdge = 1.0 / 3;  // of the edge length
+constexpr int kTunnelRings = 3;
 constexpr double kLeastChain = 4;  // edge lengths: shorter chains of sharp edges are noise
 
 bool fill(Surface& surface, const mesh::TriMesh& mesh) {
@@ -102,6 +107,33 @@ void drop_short_chains(const Surface& surface, EdgeFlags& sharp, double least_mm
     }
 }
 
+/// Faces that neither line a tunnel narrower than that nor lie within some rings of such.
+std::vector<Surface::Face_index> away_from_tunnels(Surface& surface, double narrow_mm) {
+    const std::vector<double> widths = tunnel_widths_mm(read_back(surface), 1);
+    std::vector<bool> fine(surface.number_of_faces(), false);
+    for (std::size_t f = 0; f < widths.size(); ++f) {
+        fine[f] = widths[f] < narrow_mm;
+    }
+    for (int ring = 0; ring < kTunnelRings; ++ring) {
+        std::vector<bool> grown = fine;
+        for (const auto face : surface.faces()) {
+            for (const auto other : surface.faces_around_face(surface.halfedge(face))) {
+                if (other != Surface::null_face() && fine[other]) {
+                    grown[face] = true;
+                }
+            }
+        }
+        fine = std::move(grown);
+    }
+    std::vector<Surface::Face_index> coarse;
+    for (const auto face : surface.faces()) {
+        if (!fine[face]) {
+            coarse.push_back(face);
+        }
+    }
+    return coarse;
+}
+
 }  // namespace
 
 std::optional<mesh::TriMesh> collapsed(const mesh::TriMesh& mesh, std::size_t triangles) {
@@ -130,10 +162,20 @@ std::optional<mesh::TriMesh> remeshed(const mesh::TriMesh& mesh, const RemeshOpt
             surface.add_property_map<Surface::Edge_index, bool>("e:sharp", false).first;
         processing::detect_sharp_edges(surface, options.sharp_angle_deg, sharp);
         drop_short_chains(surface, sharp, kLeastChain * options.edge_mm);
-        processing::isotropic_remeshing(surface.faces(), options.edge_mm, surface,
-                                        CGAL::parameters::number_of_iterations(kRemeshPasses)
-                                            .number_of_relaxation_steps(kRelaxationSteps)
-                                            .edge_is_constrained_map(sharp));
+        const auto mesh_evenly = [&](const auto& faces, double edge_mm) {
+            processing::isotropic_remeshing(faces, edge_mm, surface,
+                                            CGAL::parameters::number_of_iterations(kRemeshPasses)
+                                                .number_of_relaxation_steps(kRelaxationSteps)
+                                                .edge_is_constrained_map(sharp));
+        };
+        if (options.fine_tunnels) {
+            mesh_evenly(surface.faces(), kTunnelEdge * options.edge_mm);
+            surface.collect_garbage();
+            mesh_evenly(away_from_tunnels(surface, kNarrowEdges * options.edge_mm),
+                        options.edge_mm);
+        } else {
+            mesh_evenly(surface.faces(), options.edge_mm);
+        }
         return read_back(surface);
     } catch (const std::exception&) {
         return std::nullopt;

@@ -15,9 +15,14 @@ namespace decomp::proxy {
 [[nodiscard]] std::optional<mesh::TriMesh> collapsed(const mesh::TriMesh& surface,
                                                      std::size_t triangles);
 
+/// Tunnels narrower than so many edges cannot be meshed well with these edges.
+inline constexpr double kNarrowEdges = 2.5;
+
 struct RemeshOptions {
     double edge_mm = 1;
     double sharp_angle_deg = 45;
+    /// Lining of tunnels narrower than a few edges gets edges a third as long.
+    bool fine_tunnels = false;
 };
 
 /// Evenly meshed with edges of about edge_mm, points on the input surface. Chains of sharp edges
