@@ -14,9 +14,11 @@ constexpr int kBandRings = 6;
 constexpr std::array<double, 3> kInsertRadii{1.5, 2.5, 4.0};  // units
 constexpr std::array<double, 3> kCornerRadii{1.2, 2.0, 3.0};
 constexpr std::array<double, 4> kTurnRadii{2.0, 3.5, 5.0, 7.0};
-constexpr int kWidestStrip = 2;       // rings
-constexpr double kSmallChart = 0.03;  // of the area
-constexpr double kSpread = 2.0;       // units: places for insertion lie so far apart
+constexpr int kWidestStrip = 2;         // rings
+constexpr double kSideways = 0.4;       // least component of a normal across the axis
+constexpr double kCollaredChart = 0.1;  // of the area
+constexpr double kSmallChart = 0.03;    // of the area
+constexpr double kSpread = 2.0;         // units: places for insertion lie so far apart
 constexpr std::size_t kMostPlaces = 3;
 
 std::vector<AxisLabel> across_from(AxisLabel label) {
@@ -48,13 +50,21 @@ std::vector<std::uint32_t> disc(const Facets& facets, std::uint32_t vertex, doub
     return within(facets, facets.around(vertex), facets.points[vertex], radius);
 }
 
+std::vector<std::uint32_t> facets_of_chart(const Scene& scene, std::uint32_t chart) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t f = 0; f < scene.labels.size(); ++f) {
+        if (scene.layout.chart_of[f] == chart) {
+            out.push_back(f);
+        }
+    }
+    return out;
+}
+
 Proposal deletion(const Scene& scene, std::uint32_t chart) {
     Proposal proposal;
     proposal.deletes = true;
-    for (std::uint32_t f = 0; f < scene.labels.size(); ++f) {
-        if (scene.layout.chart_of[f] == chart) {
-            proposal.forbidden.emplace_back(f, scene.labels[f]);
-        }
+    for (const auto f : facets_of_chart(scene, chart)) {
+        proposal.forbidden.emplace_back(f, scene.labels[f]);
     }
     return proposal;
 }
@@ -112,8 +122,8 @@ std::vector<std::uint32_t> both_sides(const Facets& facets, const Boundary& boun
     return out;
 }
 
-/// Facets get the label of the two other axes that is nearest to their normal: four charts around a
-/// rim or in a hole.
+/// Facets that face sideways get the label of the two other axes that is nearest to their normal:
+/// four charts around a rim or in a hole.
 Proposal collar(const Scene& scene, const std::vector<std::uint32_t>& band, int axis) {
     Proposal proposal;
     for (const auto f : band) {
@@ -127,7 +137,9 @@ Proposal collar(const Scene& scene, const std::vector<std::uint32_t>& band, int 
                 best = label;
             }
         }
-        proposal.forced.emplace_back(f, best);
+        if (most > kSideways) {
+            proposal.forced.emplace_back(f, best);
+        }
     }
     return proposal;
 }
@@ -176,14 +188,19 @@ class ChartProposals {
                            [&](std::uint32_t n) { return scene_.layout.charts[n].label == label; });
     }
 
-    /// Bands of several widths along each boundary loop that the chart shares with one neighbour.
+    /// Four charts around: bands of several widths along each boundary without a corner, and a
+    /// small chart altogether.
     bool collars() {
+        std::vector<std::vector<std::uint32_t>> seams;
         for (const Boundary& boundary : scene_.layout.boundaries) {
-            const bool own = boundary.left == chart_ || boundary.right == chart_;
-            if (!own || !boundary.closed) {
-                continue;
+            if ((boundary.left == chart_ || boundary.right == chart_) && boundary.closed) {
+                seams.push_back(both_sides(facets_, boundary));
             }
-            const auto seam = both_sides(facets_, boundary);
+        }
+        if (scene_.layout.charts[chart_].area < kCollaredChart * facets_.area) {
+            seams.push_back(facets_of_chart(scene_, chart_));
+        }
+        for (const auto& seam : seams) {
             for (int rings = 0; rings <= kWidestStrip; ++rings) {
                 const auto band = grown(facets_, seam, scaled_rings(facets_, rings));
                 for (int axis = 0; axis < 3; ++axis) {

@@ -33,7 +33,7 @@ constexpr double kDistanceEdges = 2;  // the proxy may lie so many edge lengths 
 constexpr double kShellEdges = 2;     // a shell smaller than that is dropped
 constexpr std::size_t kTunnelSamples = 6000;
 constexpr double kLeastTunnelShare = 0.002;  // of the area; less is noise in a crease
-constexpr double kMostTunnelShare = 0.05;    // more would make the surface fine altogether
+constexpr double kMostTunnelShare = 0.02;    // more would make the surface fine altogether
 constexpr std::size_t kDistanceSamples = 4000;
 constexpr double kWrapAlphaEdges = 0.7;
 constexpr double kWrapOffsetShare = 1.0 / 30;  // of alpha
@@ -234,7 +234,6 @@ class Maker {
             }
         }
         const double share = narrow / mesh::area_mm2(coarse_);
-        run_.log(LogLevel::Debug, "narrow tunnels line a share of " + std::to_string(share));
         return share > kLeastTunnelShare && share < kMostTunnelShare;
     }
 

@@ -32,7 +32,7 @@ using EdgeFlags = Surface::Property_map<Surface::Edge_index, bool>;
 
 constexpr unsigned kRemeshPasses = 4;
 constexpr unsigned kRelaxationSteps = 2;
-constexpr double kTunnelEdge = 1.0 / 3;  // of the edge length
+constexpr double kTunnelEdge = 0.5;  // of the edge length
 constexpr int kTunnelRings = 3;
 constexpr double kLeastChain = 4;  // edge lengths: shorter chains of sharp edges are noise
 

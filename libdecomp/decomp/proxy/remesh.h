@@ -21,7 +21,7 @@ inline constexpr double kNarrowEdges = 2.5;
 struct RemeshOptions {
     double edge_mm = 1;
     double sharp_angle_deg = 45;
-    /// Lining of tunnels narrower than a few edges gets edges a third as long.
+    /// Lining of tunnels narrower than a few edges gets edges half as long.
     bool fine_tunnels = false;
 };
 
