@@ -32,6 +32,7 @@ struct Options {
     std::vector<std::string> models;
     std::string labels_dir;
     bool handles = false;
+    int input_triangles = 0;  // above 0: the model is first remeshed to about so many
 };
 
 /// Compactness of Table 1 of the paper.
@@ -66,8 +67,16 @@ void row(const std::string& name, const decomp::mesh::TriMesh& mesh, const Optio
         return;
     }
     run.log_sink = [](const decomp::LogEvent& event) { std::printf("# %s\n", event.text.c_str()); };
+    decomp::mesh::TriMesh input = repaired->mesh;
+    if (options.input_triangles > 0) {
+        const auto coarser =
+            decomp::proxy::make_proxy(input, {.triangles = options.input_triangles}, run);
+        if (coarser) {
+            input = coarser->surface;
+        }
+    }
     const double start = cpu_seconds();
-    const auto proxy = decomp::proxy::make_proxy(repaired->mesh, options.proxy, run);
+    const auto proxy = decomp::proxy::make_proxy(input, options.proxy, run);
     const double made = cpu_seconds();
     if (!proxy) {
         std::printf("%-16s %s\n", name.c_str(), proxy.error().text().c_str());
@@ -86,7 +95,7 @@ void row(const std::string& name, const decomp::mesh::TriMesh& mesh, const Optio
         const auto is = decomp::labels::report(proxy->surface, *labels);
         std::printf(
             "%-16s %7zu %6zu%c %7.4f %5.1f %4d %4d %3d  %2d %2d %2d  %.3f %s  %5.2f %5.2f\n",
-            name.c_str(), repaired->mesh.triangles.size(), proxy->surface.triangles.size(),
+            name.c_str(), input.triangles.size(), proxy->surface.triangles.size(),
             proxy->wrapped ? 'w' : ' ', proxy->volume_share - 1, label.compactness, is.charts,
             is.corners, is.turning_points, is.invalid_charts, is.opposite_boundaries,
             is.bad_corners, is.fidelity, is.valid() ? "valid" : "-----", made - start, to - from);
@@ -145,6 +154,8 @@ int main(int argc, char** argv) {
                 options.compactness.push_back(std::atof(list.substr(0, comma).c_str()));
                 list.erase(0, comma + 1);
             }
+        } else if (word == "--input") {
+            options.input_triangles = std::atoi(value);
         } else if (word == "--sharp") {
             options.proxy.sharp_angle_deg = std::atof(value);
         } else if (word == "--smoothing") {

@@ -22,6 +22,8 @@ constexpr double kDeletionCap = 1;          // earlier costs of the labels that 
 constexpr double kLeastGain = 1e-6;
 constexpr int kFreeRings = 6;
 constexpr int kMostRounds = 120;
+constexpr int kMostProposals = 4000;
+constexpr double kStillUseful = 0.7;       // of the gain before another change was made
 constexpr double kFidelityPerStep = 0.02;  // may be lost for each violation or turn that goes
 constexpr double kFidelityInAll = 0.15;    // may be lost altogether
 
@@ -38,6 +40,13 @@ struct State {
     [[nodiscard]] std::tuple<int, int, double> rank() const { return {violations, turns, energy}; }
 };
 
+/// A change that helped where it was tried, with the facets it set.
+struct Useful {
+    double gain;
+    Proposal proposal;
+    std::vector<std::uint32_t> seeds;
+};
+
 class Search {
   public:
     Search(const Energy& energy, Labeling labels, const Run& run)
@@ -51,7 +60,8 @@ class Search {
     Labeling best() {
         State best = now_;
         for (int round = 0; round < kMostRounds && !run_.cancelled(); ++round) {
-            if ((now_.violations == 0 && now_.turns == 0) || !step()) {
+            const bool done = now_.violations == 0 && now_.turns == 0;
+            if (done || tried_ >= kMostProposals || !step()) {
                 break;
             }
             if (now_.rank() < best.rank()) {
@@ -71,8 +81,8 @@ class Search {
     }
 
     bool step() {
-        found_ = false;
-        gain_ = kLeastGain;
+        useful_.clear();
+        best_gain_ = kLeastGain;
         const Scene scene{energy_, now_.labels, now_.layout};
         const Consider consider = [&](const Proposal& proposal) { return weigh(proposal); };
         propose_for_charts(scene, consider);
@@ -81,27 +91,74 @@ class Search {
         if (now_.violations == 0) {
             propose_for_turns(scene, consider);
         }
-        if (found_) {
-            now_ = std::move(next_);
+        if (useful_.empty()) {
+            return false;
         }
-        return found_;
+        accept();
+        return true;
     }
 
-    /// Solves near the change and keeps the outcome if it is the best of the round.
-    bool weigh(const Proposal& proposal) {
-        State state;
-        state.labels = now_.labels;
-        state.extra = now_.extra;
-        const auto seeds = apply(proposal, state);
-        if (!seeds.empty()) {
-            lower(energy_, state.extra, grown(facets_, seeds, scaled_rings(facets_, kFreeRings)),
-                  state.labels);
-            if (state.labels != now_.labels) {
-                measure(state);
-                compare(proposal, state);
+    /// Takes the best change of the round, then others far from it that still help as much.
+    void accept() {
+        std::stable_sort(useful_.begin(), useful_.end(),
+                         [](const Useful& a, const Useful& b) { return a.gain > b.gain; });
+        std::vector<bool> touched(facets_.count(), false);
+        const auto touch = [&](const std::vector<std::uint32_t>& seeds) {
+            for (const auto f : grown(facets_, seeds, 2 * scaled_rings(facets_, kFreeRings))) {
+                touched[f] = true;
+            }
+        };
+        now_ = std::move(next_);
+        touch(useful_.front().seeds);
+        for (std::size_t i = 1; i < useful_.size() && !run_.cancelled(); ++i) {
+            const Useful& other = useful_[i];
+            if (std::any_of(other.seeds.begin(), other.seeds.end(),
+                            [&](std::uint32_t f) { return touched[f]; })) {
+                continue;
+            }
+            State state;
+            if (try_out(other.proposal, state) != nullptr &&
+                gain_of(other.proposal, state) > kStillUseful * other.gain) {
+                now_ = std::move(state);
+                touch(other.seeds);
             }
         }
-        return !run_.cancelled();
+    }
+
+    /// Keeps the change if it helps, and its outcome if it is the best of the round; false: the
+    /// budget is used up.
+    bool weigh(const Proposal& proposal) {
+        State state;
+        if (const auto* seeds = try_out(proposal, state)) {
+            const double gain = gain_of(proposal, state);
+            if (gain > kLeastGain) {
+                useful_.push_back({gain, proposal, *seeds});
+            }
+            if (gain > best_gain_) {
+                best_gain_ = gain;
+                next_ = std::move(state);
+            }
+        }
+        return tried_ < kMostProposals && !run_.cancelled();
+    }
+
+    /// The state after a change, solved again nearby; the facets changed, or nothing where it
+    /// changes nothing.
+    const std::vector<std::uint32_t>* try_out(const Proposal& proposal, State& state) {
+        ++tried_;
+        state.labels = now_.labels;
+        state.extra = now_.extra;
+        seeds_ = apply(proposal, state);
+        if (seeds_.empty()) {
+            return nullptr;
+        }
+        lower(energy_, state.extra, grown(facets_, seeds_, scaled_rings(facets_, kFreeRings)),
+              state.labels);
+        if (state.labels == now_.labels) {
+            return nullptr;
+        }
+        measure(state);
+        return &seeds_;
     }
 
     static std::vector<std::uint32_t> apply(const Proposal& proposal, State& state) {
@@ -131,26 +188,22 @@ class Search {
         return seeds;
     }
 
-    void compare(const Proposal& proposal, State& state) {
+    /// What a change is worth, percent of the area; 0 where it mends nothing or costs too much.
+    [[nodiscard]] double gain_of(const Proposal& proposal, const State& state) const {
         const int violations_gone = now_.violations - state.violations;
         const int turns_gone = now_.turns - state.turns;
         if (violations_gone < 0 || (violations_gone == 0 && turns_gone <= 0)) {
-            return;
+            return 0;
         }
         const double allowed =
             kFidelityPerStep * (std::max(0, violations_gone) + std::max(0, turns_gone));
         if (now_.fidelity - state.fidelity > allowed ||
             first_fidelity_ - state.fidelity > kFidelityInAll) {
-            return;
+            return 0;
         }
         const double price = proposal.deletes ? 1 : kConstructionPrice;
-        const double gain = kViolationWorth * violations_gone + kTurnWorth * turns_gone -
-                            price * (state.energy - now_.energy);
-        if (gain > gain_) {
-            gain_ = gain;
-            next_ = std::move(state);
-            found_ = true;
-        }
+        return kViolationWorth * violations_gone + kTurnWorth * turns_gone -
+               price * (state.energy - now_.energy);
     }
 
     const Energy& energy_;
@@ -158,9 +211,11 @@ class Search {
     const Run& run_;
     State now_;
     State next_;
-    double gain_ = 0;
-    bool found_ = false;
+    std::vector<Useful> useful_;
+    std::vector<std::uint32_t> seeds_;
+    double best_gain_ = 0;
     double first_fidelity_ = 0;
+    int tried_ = 0;
 };
 
 }  // namespace
