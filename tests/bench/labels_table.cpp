@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Labels of real models as a table: one row for each model given, or for all of HEW_MODELS.
-//   labels_table [--triangles N] [--compactness C] [--smoothing N] [--simplify N] [--labels DIR]
-//   MODEL...
+//   labels_table [--triangles N] [--compactness C,C,...] [--smoothing N] [--repair none|deletion]
+//                [--input N] [--labels DIR] [--handles] [MODEL...]
+// Compactness 0 is that of the paper's Table 1 (5 for other models). Columns !c !b !k: invalid
+// charts, opposite boundaries, bad corners. Seconds are CPU.
 #include "decomp/io/read_mesh.h"
 #include "decomp/labels/label.h"
 #include "decomp/labels/label_file.h"

@@ -85,7 +85,7 @@ inline HandleShape pretzel() {
         }
         return d;
     };
-    return {"pretzel", 4, surface_of(field, {-50, -50, -30}, {50, 50, 40}, 1.5)};
+    return {"pretzel", 3, surface_of(field, {-50, -50, -30}, {50, 50, 40}, 1.5)};
 }
 
 /// A tube along a trefoil knot: genus 1.
