@@ -57,6 +57,10 @@ path::LayerStack cooled(path::LayerStack stack, const profile::FdmSetup& setup) 
     for (path::Layer& layer : stack.layers) {
         if (!layer.beads.empty() && layer_seconds(layer, setup) < wanted_s * (1 - kCloseEnough)) {
             layer = slowed_to(wanted_s, layer, setup);
+            const double lacking_s = wanted_s - layer_seconds(layer, setup);
+            if (!setup.dialect.dwell.empty() && lacking_s > wanted_s * kCloseEnough) {
+                layer.pause_s += lacking_s;
+            }
         }
     }
     return stack;

@@ -14,12 +14,14 @@ Estimate estimate(const path::LayerStack& stack, const profile::FdmSetup& setup)
     Planner planner(motion);
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     bool placed = false;
+    std::vector<double> pauses(stack.layers.size(), 0.0);
     trace(stack, setup, [&](const Move& move) {
         // Where the machine comes from is not known: the way to the first bead takes no time.
         if (!placed) {
             at = move.to;
             placed = move.kind == MoveKind::Travel;
         }
+        pauses[move.layer] += move.seconds;
         Segment segment;
         segment.delta_mm << move.to - at, move.filament_mm;
         segment.speed_mm_per_s = move.speed_mm_per_s;
@@ -35,8 +37,9 @@ Estimate estimate(const path::LayerStack& stack, const profile::FdmSetup& setup)
     });
     out.layer_seconds = planner.finish();
     out.layer_seconds.resize(stack.layers.size(), 0.0);
-    for (const double seconds : out.layer_seconds) {
-        out.seconds += seconds;
+    for (std::size_t i = 0; i < pauses.size(); ++i) {
+        out.layer_seconds[i] += pauses[i];
+        out.seconds += out.layer_seconds[i];
     }
     const double radius_mm = setup.machine.nozzle.filament_diameter_mm / 2;
     const double volume_cm3 = out.filament_mm * std::numbers::pi * radius_mm * radius_mm / 1000;

@@ -18,21 +18,67 @@ class Tracer {
         emit(MoveKind::NewLayer, 0, 0);
         for (const path::Bead& bead : layer.beads) {
             if (bead.points.size() >= 2) {
-                travel(bead.points.front(), layer.z_mm);
+                travel(bead, layer.z_mm);
                 extrude(bead);
             }
+        }
+        if (layer.pause_s > 0) {
+            pause(layer.pause_s);
         }
     }
 
     void retract() {
-        if (!retracted_ && machine_.retraction.length_mm > 0) {
-            retracted_ = true;
-            emit(MoveKind::Retract, -machine_.retraction.length_mm,
-                 machine_.retraction.speed.mm_per_s());
+        if (retracted_ || machine_.retraction.length_mm <= 0) {
+            return;
+        }
+        retracted_ = true;
+        const double left_mm = machine_.retraction.length_mm - wipe();
+        if (left_mm > kLeastRetractionMm) {
+            emit(MoveKind::Retract, -left_mm, machine_.retraction.speed.mm_per_s());
         }
     }
 
   private:
+    static constexpr double kPauseLiftMm = 2;
+    static constexpr double kLeastRetractionMm = 1e-9;
+
+    /// Retracts along the way back over the last bead; returns the filament pulled back.
+    double wipe() {
+        const auto& rules = machine_.retraction;
+        if (rules.wipe_mm <= 0 || last_ == nullptr) {
+            return 0;
+        }
+        const path::Bead& bead = *last_;
+        last_ = nullptr;
+        double left_mm = rules.wipe_mm;
+        double pulled_mm = 0;
+        for (std::size_t i = bead.points.size() - 1; i-- > 0 && left_mm > 0;) {
+            const Eigen::Vector2d way = bead.points[i] - move_.to.head<2>();
+            const double length_mm = way.norm();
+            const double share = length_mm > left_mm ? left_mm / length_mm : 1.0;
+            if (length_mm <= 0) {
+                continue;
+            }
+            const double filament_mm = rules.length_mm * share * length_mm / rules.wipe_mm;
+            move_.to.head<2>() += share * way;
+            left_mm -= share * length_mm;
+            pulled_mm += filament_mm;
+            emit(MoveKind::Wipe, -filament_mm,
+                 rules.speed.mm_per_s() * rules.wipe_mm / rules.length_mm);
+        }
+        return pulled_mm;
+    }
+
+    /// Waits above the part, so that the nozzle neither oozes onto it nor keeps it hot.
+    void pause(double seconds) {
+        retract();
+        lift_to(MoveKind::Raise, std::min(layer_z_mm_ + kPauseLiftMm,
+                                          std::max(machine_.chamber.max_mm.z(), layer_z_mm_)));
+        move_.seconds = seconds;
+        emit(MoveKind::Pause, 0, 0);
+        move_.seconds = 0;
+    }
+
     void emit(MoveKind kind, double filament_mm, double speed) {
         move_.kind = kind;
         move_.filament_mm = filament_mm;
@@ -47,22 +93,46 @@ class Tracer {
         }
     }
 
-    void travel(const Eigen::Vector2d& target, double z_mm) {
-        const double distance_mm = (target - move_.to.head<2>()).norm();
+    [[nodiscard]] double way_mm(const path::Bead& bead) const {
+        double sum = 0;
+        Eigen::Vector2d at = move_.to.head<2>();
+        for (const Eigen::Vector2d& p : bead.approach.by) {
+            sum += (p - at).norm();
+            at = p;
+        }
+        return sum + (bead.points.front() - at).norm();
+    }
+
+    void go(const Eigen::Vector2d& target) {
+        if (target != move_.to.head<2>() || !started_) {
+            move_.to.head<2>() = target;
+            emit(MoveKind::Travel, 0, machine_.process.travel_speed.mm_per_s());
+        }
+    }
+
+    /// To the beginning of a bead. Between layers the way is straight: it begins elsewhere.
+    void travel(const path::Bead& bead, double z_mm) {
+        const Eigen::Vector2d& target = bead.points.front();
+        const double distance_mm = way_mm(bead);
         const bool same_height = started_ && z_mm == layer_z_mm_;
         if (same_height && distance_mm == 0) {
             return;
         }
-        if (!same_height || distance_mm >= machine_.retraction.min_travel_mm) {
+        const bool inside = same_height && bead.approach.inside;
+        const profile::FdmMachine::Retraction& rules = machine_.retraction;
+        if (!same_height || distance_mm >= (inside ? rules.max_inside_mm : rules.min_travel_mm)) {
             retract();
-            const double lift_mm = started_ ? machine_.retraction.lift_mm : 0.0;
-            lift_to(MoveKind::Raise, std::min(std::max(z_mm, layer_z_mm_) + lift_mm,
-                                              std::max(machine_.chamber.max_mm.z(), z_mm)));
+            const double lift_mm = started_ && !inside ? rules.lift_mm : 0.0;
+            const double above_mm = std::min(std::max(z_mm, layer_z_mm_) + lift_mm,
+                                             std::max(machine_.chamber.max_mm.z(), z_mm));
+            lift_to(MoveKind::Raise, std::max(above_mm, move_.to.z()));
         }
-        if (distance_mm > 0 || !started_) {
-            move_.to.head<2>() = target;
-            emit(MoveKind::Travel, 0, machine_.process.travel_speed.mm_per_s());
+        if (same_height) {
+            for (const Eigen::Vector2d& p : bead.approach.by) {
+                go(p);
+            }
         }
+        go(target);
         lift_to(MoveKind::Lower, z_mm);
         started_ = true;
         layer_z_mm_ = z_mm;
@@ -85,12 +155,14 @@ class Tracer {
             }
         }
         move_.bead = nullptr;
+        last_ = &bead;
     }
 
     const profile::FdmMachine& machine_;
     const profile::FdmSetup& setup_;
     const std::function<void(const Move&)>& sink_;
     Move move_;
+    const path::Bead* last_ = nullptr;  ///< along which to wipe
     double layer_z_mm_ = 0;
     bool started_ = false;
     bool retracted_ = false;

@@ -20,6 +20,8 @@ enum class MoveKind : std::uint8_t {
     Lower,    ///< to the height of the layer
     Recover,  ///< filament forward again
     Extrude,  ///< along a bead
+    Wipe,     ///< back along a bead, filament back
+    Pause,    ///< stand still for `seconds`
 };
 
 /// One thing that the machine does. Frame: that of the stack.
@@ -29,6 +31,7 @@ struct Move {
     const path::Bead* bead = nullptr;  ///< of Extrude
     Eigen::Vector3d to = Eigen::Vector3d::Zero();
     double filament_mm = 0;     ///< fed during this move; negative: pulled back
+    double seconds = 0;         ///< of Pause
     double speed_mm_per_s = 0;  ///< along the path, or of the filament when nothing else moves
 };
 
@@ -40,9 +43,9 @@ struct Move {
 [[nodiscard]] double bead_speed_mm_per_s(const path::Bead& bead, const profile::FdmSetup& setup);
 
 /// Calls `sink` with every move of a stack in order: beads at their speed but not beyond the flow
-/// that nozzle and material stand, straight travels between them, retracted and lifted when they
-/// are long or change the layer. Begins recovered, at the place of the first travel; ends
-/// retracted. Serial, O(points).
+/// that nozzle and material stand, travels by their approaches, retracted and lifted when they are
+/// long or change the layer; those inside the part are retracted only beyond a length of their own.
+/// Begins recovered, at the place of the first travel; ends retracted. Serial, O(points).
 void trace(const path::LayerStack& stack, const profile::FdmSetup& setup,
            const std::function<void(const Move&)>& sink);
 

@@ -19,6 +19,8 @@ const char* feature_name(Feature feature) {
             return "bottom-skin";
         case Feature::SparseInfill:
             return "sparse-infill";
+        case Feature::OverhangWall:
+            return "overhang-wall";
         case Feature::Bridge:
             return "bridge";
         case Feature::Support:

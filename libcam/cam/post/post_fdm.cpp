@@ -244,7 +244,8 @@ class Poster {
         if (index == 1 && material.nozzle_celsius != material.first_layer_nozzle_celsius) {
             template_text(setup_.dialect.set_nozzle, {{"celsius", material.nozzle_celsius}});
         }
-        set_fan(static_cast<long>(index) >= material.fan_from_layer ? material.fan_fraction : 0);
+        fan_runs_ = static_cast<long>(index) >= material.fan_from_layer;
+        set_fan(fan_runs_ ? material.fan_fraction : 0);
         progress();
         seconds_ += estimate_.layer_seconds[index];
         if (!setup_.machine.templates.layer.empty()) {
@@ -269,12 +270,23 @@ class Poster {
         }
     }
 
+    /// What hangs in the air is cooled harder.
+    void blow_on(path::Feature feature) {
+        const profile::Material& material = setup_.material;
+        const bool in_air =
+            feature == path::Feature::Bridge || feature == path::Feature::OverhangWall;
+        if (fan_runs_ && material.bridge_fan_fraction > material.fan_fraction) {
+            set_fan(in_air ? material.bridge_fan_fraction : material.fan_fraction);
+        }
+    }
+
     void describe(const path::Bead& bead) {
         if (bead_ == &bead) {
             return;
         }
         if (bead_ == nullptr || bead_->feature != bead.feature) {
             writer_.comment(std::string("TYPE:") + path::feature_name(bead.feature));
+            blow_on(bead.feature);
         }
         if (bead_ == nullptr || bead_->width_mm != bead.width_mm) {
             writer_.comment("WIDTH:" + decomp::decimal(bead.width_mm, 4));
@@ -301,6 +313,13 @@ class Poster {
                     reset_filament(move.to);
                 }
                 break;
+            case motion::MoveKind::Wipe:
+                writer_.move_xy(move.to.head<2>(), move.filament_mm, move.speed_mm_per_s);
+                break;
+            case motion::MoveKind::Pause:
+                template_text(setup_.dialect.dwell,
+                              {{"milliseconds", std::round(1000 * move.seconds)}});
+                break;
             case motion::MoveKind::Raise:
             case motion::MoveKind::Lower:
                 writer_.move_z(move.to.z(), move.speed_mm_per_s);
@@ -325,6 +344,7 @@ class Poster {
     profile::TemplateValues values_;
     GcodeWriter writer_;
     const path::Bead* bead_ = nullptr;  ///< the last one described in this layer
+    bool fan_runs_ = false;             ///< in the layer at hand
     double fan_ = -1;                   ///< unknown after the start template
     bool filament_known_;               ///< what E stands at
     double seconds_ = 0;                ///< until the layer at hand

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/profile/fields.h"
 #include "cam/profile/template.h"
+#include "decomp/base/nearest.h"
 #include "decomp/base/number.h"
+
+#include <algorithm>
 
 namespace cam::profile {
 
@@ -56,6 +59,19 @@ void check_sizes(Check& check, const FdmMachine& machine) {
         "line widths must be at most three times the nozzle's diameter");
 }
 
+void check_choices(Check& check, const FdmMachine::Process& process) {
+    const auto one_of = [&](const char* key, const std::string& value,
+                            const std::vector<std::string>& known) {
+        if (std::find(known.begin(), known.end(), value) == known.end()) {
+            check.must(false, std::string(key) + ": there is no '" + value + "'; " +
+                                  decomp::did_you_mean(value, known));
+        }
+    };
+    one_of("process.infill_pattern", process.infill_pattern,
+           {"grid", "rectilinear", "gyroid", "cubic", "concentric"});
+    one_of("process.seam", process.seam, {"hidden", "aligned", "rear", "nearest"});
+}
+
 void check_heat(Check& check, const FdmMachine& machine, const Material& material) {
     const double hottest = std::max(material.nozzle_celsius, material.first_layer_nozzle_celsius);
     check.must(hottest <= machine.heaters.max_nozzle_celsius,
@@ -92,6 +108,7 @@ void check_words(Check& check, const FdmSetup& setup) {
     check.must(dialect.relative_e || !dialect.reset_e.empty(),
                "dialect.reset_e is needed unless dialect.relative_e");
     check.must_expand("dialect.reset_e", dialect.reset_e, {Scope::Position});
+    check.must_expand("dialect.dwell", dialect.dwell, {Scope::Dwell});
     check.must_expand("dialect.progress", dialect.progress, {Scope::Progress});
     check.must_be_allowed("templates.start", templates.start, dialect);
     check.must_be_allowed("templates.layer", templates.layer, dialect);
@@ -103,6 +120,7 @@ void check_words(Check& check, const FdmSetup& setup) {
 std::vector<std::string> inconsistencies(const FdmSetup& setup) {
     Check check;
     check_sizes(check, setup.machine);
+    check_choices(check, setup.machine.process);
     check_heat(check, setup.machine, setup.material);
     check_words(check, setup);
     const FdmMachine::Converter& converter = setup.machine.converter;

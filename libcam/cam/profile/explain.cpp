@@ -43,6 +43,8 @@ const char* scope_text(Scope scope) {
             return "reset_e";
         case Scope::Progress:
             return "progress";
+        case Scope::Dwell:
+            return "dwell";
     }
     return "";
 }

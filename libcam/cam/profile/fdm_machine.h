@@ -48,8 +48,10 @@ struct FdmMachine {
     struct Retraction {
         double length_mm = 1;
         decomp::Speed speed = decomp::Speed::mm_per_s(30);
-        double min_travel_mm = 2;  ///< shorter travels do not retract
-        double lift_mm = 0;        ///< z-hop
+        double min_travel_mm = 2;   ///< shorter travels do not retract
+        double lift_mm = 0;         ///< z-hop
+        double max_inside_mm = 15;  ///< longer travels retract though they stay inside the part
+        double wipe_mm = 0;         ///< way back along the bead while retracting
     } retraction;
 
     /// Text templates with {placeholders}; docs/profiles.md lists them. Part of the machine, not of
@@ -79,8 +81,19 @@ struct FdmMachine {
         decomp::Angle infill_angle = decomp::Angle::degrees(45);  ///< of the first sparse layer
         decomp::Angle support_angle =
             decomp::Angle::degrees(45);  ///< overhang from the horizontal that needs support below
+        std::string infill_pattern = "grid";  ///< grid, rectilinear, gyroid, cubic, concentric
+        double infill_anchor_mm = 20;  ///< longest way along the walls that links infill lines
+        double interface_infill_density =
+            0;                           ///< behind mating faces; lower than the other: the other
+        double interface_infill_mm = 4;  ///< how far behind them
+        std::string seam = "hidden";     ///< hidden, aligned, rear, nearest
+        double elephant_foot_mm = 0.1;   ///< taken off the first layer's outline
+        double outline_inset_mm = 0;     ///< taken off every layer's outer outline
+        double hole_growth_mm = 0.05;    ///< added to the radius of round holes
+        double mating_gap_mm = 0.1;      ///< between two parts; each face gives half of it
         double support_spacing_mm = 2.5;
-        double support_gap_z_layers = 1;  ///< free layers between support and part
+        int support_interface_layers = 3;  ///< dense layers under the part
+        double support_gap_z_layers = 1;   ///< free layers between support and part
         double support_gap_xy_mm = 0.6;
         double brim_width_mm = 0;  ///< brim when > 0, else skirt
         int skirt_loops = 2;
@@ -90,6 +103,7 @@ struct FdmMachine {
         decomp::Speed infill_speed = decomp::Speed::mm_per_s(60);
         decomp::Speed solid_speed = decomp::Speed::mm_per_s(45);
         decomp::Speed bridge_speed = decomp::Speed::mm_per_s(25);
+        decomp::Speed overhang_speed = decomp::Speed::mm_per_s(15);
         decomp::Speed support_speed = decomp::Speed::mm_per_s(45);
         decomp::Speed first_layer_speed = decomp::Speed::mm_per_s(20);
         decomp::Speed travel_speed = decomp::Speed::mm_per_s(120);
@@ -110,6 +124,7 @@ struct Material {
     double max_flow_mm3_per_s = 11;
     double extrusion_multiplier = 1;
     double fan_fraction = 1;                                ///< 0..1, from fan_from_layer on
+    double bridge_fan_fraction = 1;                         ///< over air, when above fan_fraction
     int fan_from_layer = 1;                                 ///< counted from 0
     double min_layer_time_s = 10;                           ///< slower moves below it
     decomp::Speed min_speed = decomp::Speed::mm_per_s(10);  ///< floor of that slow-down
@@ -132,9 +147,10 @@ struct Dialect {
     std::string set_bed;     ///< template with {celsius}
     std::string
         reset_e;  ///< template that calls E zero at {x_mm} {y_mm} {z_mm}; used unless relative_e
-    std::string progress;                ///< template with {percent} {minutes_left}; empty: none
-    std::string max_axes = "XYZE";       ///< axes that the dialect can speak of
-    bool fan_is_on_off = false;          ///< no PWM: on when the fraction is at least 0.5
+    std::string progress;           ///< template with {percent} {minutes_left}; empty: none
+    std::string dwell;              ///< template with {milliseconds}; empty: waits are left out
+    std::string max_axes = "XYZE";  ///< axes that the dialect can speak of
+    bool fan_is_on_off = false;     ///< no PWM: on when the fraction is at least 0.5
     std::vector<std::string> forbidden;  ///< words that must never be written, e.g. "M109"
 };
 

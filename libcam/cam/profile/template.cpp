@@ -301,6 +301,7 @@ const std::vector<Placeholder>& placeholders() {
         {Scope::Position, "z_mm", "where the nozzle is"},
         {Scope::Progress, "percent", "of the time that has passed, 0 .. 100"},
         {Scope::Progress, "minutes_left", "until the end, rounded"},
+        {Scope::Dwell, "milliseconds", "to wait"},
     };
     return table;
 }

@@ -24,7 +24,7 @@ using TemplateValues = std::map<std::string, std::variant<double, std::string>, 
                                                  const TemplateValues& values);
 
 /// Where a placeholder has a value.
-enum class Scope { Program, Layer, Heater, Fan, Position, Progress };
+enum class Scope { Program, Layer, Heater, Fan, Position, Progress, Dwell };
 
 struct Placeholder {
     Scope scope = Scope::Program;

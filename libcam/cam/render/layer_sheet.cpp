@@ -23,7 +23,7 @@ constexpr int kLegendPx = 26;  // one line of the legend
 constexpr int kLegendWidthPx = 250;
 constexpr double kBarShare = 0.80;  // of the legend's width, at most, for the scale bar
 constexpr Rgb kInk{40, 40, 40};
-constexpr std::size_t kFeatures = 12;
+constexpr std::size_t kFeatures = 13;
 constexpr double kLeastLength2 = 1e-12;  // a bead of no length is a dot
 
 /// A rectangle of the picture that shows one layer.
@@ -279,6 +279,8 @@ Rgb feature_colour(path::Feature feature) {
             return {92, 150, 214};
         case path::Feature::SparseInfill:
             return {170, 86, 160};
+        case path::Feature::OverhangWall:
+            return {250, 60, 160};
         case path::Feature::Bridge:
             return {60, 170, 190};
         case path::Feature::Support:

@@ -75,4 +75,16 @@ TEST(Cooling, LeavesLongLayersAloneAndIsDoneOnce) {
     }
 }
 
+TEST(Cooling, WaitsForWhatTheFloorDoesNotGive) {
+    cam::profile::FdmSetup with = setup();
+    with.material.min_layer_time_s = 100;
+    const auto slow = cam::motion::cooled(tests::tower(2, 15), with);
+    EXPECT_GT(slow.layers[0].pause_s, 1);
+    for (const double seconds : cam::motion::estimate(slow, with).layer_seconds) {
+        EXPECT_NEAR(seconds, 100, 1);
+    }
+    with.dialect.dwell.clear();
+    EXPECT_EQ(cam::motion::cooled(tests::tower(2, 15), with).layers[0].pause_s, 0);
+}
+
 }  // namespace

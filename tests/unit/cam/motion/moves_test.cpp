@@ -99,4 +99,53 @@ TEST(Moves, BeadsThatTouchNeedNoTravel) {
     EXPECT_EQ(count(moves, MoveKind::Travel), 1);
 }
 
+TEST(Moves, TravelsInsideThePartRetractOnlyWhenTheyAreLong) {
+    cam::profile::FdmSetup with = setup();
+    with.machine.retraction.min_travel_mm = 2;
+    with.machine.retraction.max_inside_mm = 30;
+    cam::path::Bead second = tests::square_bead(30, 10, 5);
+    second.approach = {{{20, 12}}, true};
+    const auto moves = [&] {
+        return moves_of({{{0.2, 0.2, {tests::square_bead(10, 10, 5), second}}}}, with);
+    };
+    EXPECT_EQ(count(moves(), MoveKind::Retract), 2);
+    EXPECT_EQ(count(moves(), MoveKind::Travel), 3) << "by way of the point between";
+    with.machine.retraction.max_inside_mm = 15;
+    EXPECT_EQ(count(moves(), MoveKind::Retract), 3);
+    EXPECT_EQ(count(moves(), MoveKind::Travel), 3);
+}
+
+TEST(Moves, AWipeGoesBackAlongTheBeadAndPullsTheWholeRetraction) {
+    cam::profile::FdmSetup with = setup();
+    with.machine.retraction.wipe_mm = 7;
+    double pulled_mm = 0;
+    Eigen::Vector2d wiped_to = Eigen::Vector2d::Zero();
+    for (const Move& move : moves_of({{{0.2, 0.2, {tests::square_bead(10, 10, 5)}}}}, with)) {
+        if (move.kind == MoveKind::Wipe) {
+            pulled_mm -= move.filament_mm;
+            wiped_to = move.to.head<2>();
+        }
+    }
+    EXPECT_NEAR(pulled_mm, with.machine.retraction.length_mm, 1e-12);
+    // Back up the last side and two millimetres along the one before.
+    EXPECT_NEAR((wiped_to - Eigen::Vector2d(12, 15)).norm(), 0, 1e-12);
+}
+
+TEST(Moves, APauseIsSpentRetractedAboveThePart) {
+    cam::path::LayerStack stack = tests::tower(2);
+    stack.layers[0].pause_s = 4;
+    bool retracted = false;
+    int pauses = 0;
+    for (const Move& move : moves_of(stack, setup())) {
+        retracted = (retracted || move.kind == MoveKind::Retract) && move.kind != MoveKind::Recover;
+        if (move.kind == MoveKind::Pause) {
+            ++pauses;
+            EXPECT_EQ(move.seconds, 4);
+            EXPECT_TRUE(retracted);
+            EXPECT_GT(move.to.z(), 1);
+        }
+    }
+    EXPECT_EQ(pauses, 1);
+}
+
 }  // namespace
