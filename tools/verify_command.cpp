@@ -48,7 +48,7 @@ Result<Answer> verify_lone(const Command& command, Run& run) {
         if (!solid) {
             return decomp::fail(solid.error());
         }
-        *part = {part->id, std::move(*solid), Eigen::Vector2d::Zero()};
+        *part = {part->id, std::move(*solid), Eigen::Vector2d::Zero(), {}};
     }
     if (!part) {
         return decomp::fail(part.error());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/fdm/infill.h"
 
+#include "cam/fdm/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,33 +38,6 @@ struct Link {
     std::size_t from = 0;  ///< crossing; the way runs along the loop's direction
     std::size_t to = 0;
     double length_mm = 0;
-};
-
-/// Sets that only ever grow together.
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-
-    /// False when a and b were together already.
-    bool join(std::size_t a, std::size_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-        return a != b;
-    }
-
-  private:
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-
-    std::vector<std::size_t> parent_;
 };
 
 class LineFill {

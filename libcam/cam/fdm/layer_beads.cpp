@@ -4,6 +4,11 @@
 #include "cam/fdm/infill.h"
 #include "cam/fdm/medial.h"
 #include "cam/fdm/order.h"
+#include "cam/fdm/overhang_walls.h"
+#include "cam/fdm/seams.h"
+#include "cam/fdm/sparse.h"
+#include "cam/fdm/travel.h"
+#include "cam/fdm/walls.h"
 #include "cam/polygon/boolean.h"
 #include "cam/polygon/offset.h"
 
@@ -23,10 +28,8 @@ using path::Feature;
 using polygon::Paths;
 using Process = profile::FdmMachine::Process;
 
-constexpr double kSolidLinkSpacings = 15;    // solid lines are linked over at most so many spacings
-constexpr double kSparseLinkSpacings = 1.5;  // sparse lines likewise, of their own spacing
-constexpr double kInterfaceSpacings = 1.5;   // lines of support under the part, by bead spacings
-constexpr double kOutputToleranceMm = 0.004;
+constexpr double kSolidLinkSpacings = 15;   // solid lines are linked over at most so many spacings
+constexpr double kInterfaceSpacings = 1.5;  // lines of support under the part, by bead spacings
 constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
 constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
@@ -49,20 +52,6 @@ Speed speed_of(Feature feature, const Process& process) {
         default:
             return process.solid_speed;
     }
-}
-
-Angle turned_90(Angle angle) {
-    return Angle::radians(angle.radians() + Angle::degrees(90).radians());
-}
-
-Line closed_line(const polygon::Path& loop) {
-    Line points;
-    points.reserve(loop.size() + 1);
-    for (const auto& p : loop) {
-        points.push_back(polygon::to_mm(p));
-    }
-    points.push_back(points.front());
-    return points;
 }
 
 /// Only the outer loops: holes filled in.
@@ -104,9 +93,11 @@ MedialLine middle_of(const Paths& blob) {
 
 class LayerBeads {
   public:
-    LayerBeads(const PartLayer& layer, std::size_t index, const profile::FdmMachine& machine)
+    LayerBeads(const PartLayer& layer, std::size_t index, const Paths& below,
+               const profile::FdmMachine& machine)
         : layer_(layer),
           index_(index),
+          below_(below),
           process_(machine.process),
           least_width_mm_(kLeastWidthNozzles * machine.nozzle.diameter_mm) {}
 
@@ -116,6 +107,12 @@ class LayerBeads {
         }
         add_support();
         add_part();
+        if (index_ > 0) {
+            out_ = with_overhangs(std::move(out_), below_, process_.overhang_speed);
+        }
+        const BeadSize& size = layer_.bead;
+        find_approaches(
+            TravelMap(layer_.slice, size.width_mm, size.width_mm / 2 + size.spacing_mm()), out_);
         return std::move(out_);
     }
 
@@ -152,9 +149,8 @@ class LayerBeads {
             process_.support_gap_xy_mm));
         for (int i = loops - 1; i >= 0; --i) {
             const double distance = layer_.bead.width_mm / 2 + i * spacing;
-            for (const auto& loop : polygon::simplified(
-                     polygon::offset(foot, distance, polygon::Join::Round), kOutputToleranceMm)) {
-                out_.push_back(bead(Feature::Brim, closed_line(loop)));
+            for (Line& loop : closed_lines(polygon::offset(foot, distance, polygon::Join::Round))) {
+                out_.push_back(bead(Feature::Brim, std::move(loop)));
             }
         }
     }
@@ -180,8 +176,8 @@ class LayerBeads {
                 beads.push_back(bead(feature, std::move(line)));
             }
             if (polygon::offset(room, -pattern.spacing_mm).empty()) {
-                for (const auto& loop : polygon::simplified(room, kOutputToleranceMm)) {
-                    beads.push_back(bead(feature, closed_line(loop)));
+                for (Line& loop : closed_lines(room)) {
+                    beads.push_back(bead(feature, std::move(loop)));
                 }
             }
         }
@@ -201,7 +197,9 @@ class LayerBeads {
         add_solid();
         add_bridges();
         add_sparse();
-        append(ordered(std::move(by_island_), at()));
+        append(
+            ordered(std::move(by_island_), at(),
+                    seam_place(process_.seam) == SeamPlace::Nearest ? Seams::Free : Seams::Kept));
     }
 
     IslandBeads& island_of(const Eigen::Vector2d& p) {
@@ -216,14 +214,13 @@ class LayerBeads {
     }
 
     void add_walls() {
-        for (std::size_t depth = 0; depth < layer_.walls.loops.size(); ++depth) {
-            const Feature feature = depth == 0 ? Feature::OuterWall : Feature::InnerWall;
-            for (const auto& loop :
-                 polygon::simplified(layer_.walls.loops[depth], kOutputToleranceMm)) {
-                Line points = closed_line(loop);
-                IslandBeads& island = island_of(points.front());
-                (depth == 0 ? island.outer_walls : island.inner_walls)
-                    .push_back(bead(feature, std::move(points)));
+        for (const Line& loop : layer_.outer_walls) {
+            island_of(loop.front()).outer_walls.push_back(bead(Feature::OuterWall, loop));
+        }
+        for (std::size_t depth = 1; depth < layer_.walls.loops.size(); ++depth) {
+            for (Line& loop : closed_lines(layer_.walls.loops[depth])) {
+                IslandBeads& island = island_of(loop.front());
+                island.inner_walls.push_back(bead(Feature::InnerWall, std::move(loop)));
             }
         }
     }
@@ -247,20 +244,24 @@ class LayerBeads {
         }
     }
 
+    /// Line centres keep half a spacing from the area's edge, less what the fill overlaps: walls
+    /// leave a gap at the surface by their round flanks, and the fill has to hold on to them.
+    [[nodiscard]] double fill_inset_mm() const {
+        return layer_.bead.spacing_mm() / 2 - kFillOverlapRoundings * layer_.bead.rounding_mm();
+    }
+
+    [[nodiscard]] Paths fill_room(const Paths& area) const {
+        return polygon::offset(area, -fill_inset_mm());
+    }
+
     void add_fill(Feature feature, const Paths& area, const FillPattern& pattern) {
-        // Line centres keep half a spacing from the area's edge, less what the fill overlaps: walls
-        // leave a gap at the surface by their round flanks, and the fill has to hold on to them.
-        const double inset =
-            layer_.bead.spacing_mm() / 2 - kFillOverlapRoundings * layer_.bead.rounding_mm();
-        const Paths room = polygon::offset(area, -inset);
+        const Paths room = fill_room(area);
         for (Line& line : fill_with_lines(room, pattern)) {
             IslandBeads& island = island_of(line.front());
             island.fill.push_back(bead(feature, std::move(line)));
         }
-        if (feature != Feature::SparseInfill) {
-            const Paths scraps = polygon::subtract(area, polygon::offset(room, inset));
-            add_single_beads(feature, without_crumbs(scraps), layer_.bead.rounding_mm());
-        }
+        const Paths scraps = polygon::subtract(area, polygon::offset(room, fill_inset_mm()));
+        add_single_beads(feature, without_crumbs(scraps), layer_.bead.rounding_mm());
     }
 
     [[nodiscard]] Feature solid_feature(const Paths& area) const {
@@ -303,18 +304,22 @@ class LayerBeads {
         if (process_.infill_density <= 0 || layer_.interior.sparse.empty()) {
             return;
         }
-        // A grid: both directions on every layer, so that each line lies on the line of the layer
-        // below.
-        const double spacing = 2 * layer_.bead.spacing_mm() / process_.infill_density;
-        const FillPattern along{spacing, process_.infill_angle, kSparseLinkSpacings * spacing};
-        FillPattern across = along;
-        across.angle = turned_90(process_.infill_angle);
-        add_fill(Feature::SparseInfill, layer_.interior.sparse, along);
-        add_fill(Feature::SparseInfill, layer_.interior.sparse, across);
+        const SparseFill fill{sparse_pattern(process_.infill_pattern),
+                              process_.infill_density,
+                              layer_.bead.spacing_mm(),
+                              process_.infill_angle,
+                              layer_.top_mm,
+                              index_ % 2 != 0,
+                              process_.infill_anchor_mm};
+        for (Line& line : fill_sparsely(fill_room(layer_.interior.sparse), fill)) {
+            IslandBeads& island = island_of(line.front());
+            island.fill.push_back(bead(Feature::SparseInfill, std::move(line)));
+        }
     }
 
     const PartLayer& layer_;
     std::size_t index_;
+    const Paths& below_;
     const Process& process_;
     double least_width_mm_;
     std::vector<polygon::Island> islands_;
@@ -325,9 +330,9 @@ class LayerBeads {
 
 }  // namespace
 
-std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index,
+std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index, const Paths& below,
                              const profile::FdmMachine& machine) {
-    return LayerBeads(layer, index, machine).beads();
+    return LayerBeads(layer, index, below, machine).beads();
 }
 
 }  // namespace cam::fdm

@@ -11,9 +11,11 @@
 namespace cam::fdm {
 
 /// The beads of one layer in printing order: brim (first layer only, outermost first), support,
-/// then the part island by island. @param index  of the layer, from 0; decides on angles and on
-/// first-layer speed
+/// then the part island by island.
+/// @param index  of the layer, from 0; decides on angles and on first-layer speed
+/// @param below  slice of the layer below: walls over air are slowed
 [[nodiscard]] std::vector<path::Bead> make_beads(const PartLayer& layer, std::size_t index,
+                                                 const polygon::Paths& below,
                                                  const profile::FdmMachine& machine);
 
 }  // namespace cam::fdm

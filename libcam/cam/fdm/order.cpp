@@ -15,8 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using path::Bead;
 
-constexpr double kSharpDegrees = 40;
-constexpr double kCornerReachMm = 0.4;  // a corner's sides are looked at over this length
 constexpr std::size_t kMostForTwoOpt = 300;
 constexpr int kTwoOptPasses = 4;
 
@@ -31,44 +29,6 @@ std::size_t nearest_vertex(const Bead& loop, const Vector2d& from) {
     for (std::size_t i = 1; i + 1 < loop.points.size(); ++i) {
         if (squared(loop.points[i], from) < squared(loop.points[best], from)) {
             best = i;
-        }
-    }
-    return best;
-}
-
-/// The first vertex at least kCornerReachMm away from vertex i, walking by `step` (1 or n - 1).
-Vector2d neighbour(const Bead& loop, std::size_t i, std::size_t step) {
-    const std::size_t n = loop.points.size() - 1;
-    std::size_t j = i;
-    do {
-        j = (j + step) % n;
-    } while (j != i && squared(loop.points[j], loop.points[i]) < kCornerReachMm * kCornerReachMm);
-    return loop.points[j];
-}
-
-/// 2: sharp concave corner (the seam hides in it), 1: sharp convex corner, 0: smooth. Loops have
-/// the material on their left, so a right turn is concave, of holes as well.
-int corner_class(const Bead& loop, std::size_t i) {
-    const Vector2d in = loop.points[i] - neighbour(loop, i, loop.points.size() - 2);
-    const Vector2d out = neighbour(loop, i, 1) - loop.points[i];
-    const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
-    if (std::abs(turn) < kSharpDegrees * std::acos(-1.0) / 180) {
-        return 0;
-    }
-    return turn < 0 ? 2 : 1;
-}
-
-std::size_t seam_vertex(const Bead& loop) {
-    std::size_t best = 0;
-    int best_class = corner_class(loop, 0);
-    for (std::size_t i = 1; i + 1 < loop.points.size(); ++i) {
-        const int now = corner_class(loop, i);
-        const Vector2d& p = loop.points[i];
-        const Vector2d& q = loop.points[best];
-        const bool rearer = p.y() != q.y() ? p.y() > q.y() : p.x() > q.x();
-        if (now > best_class || (now == best_class && rearer)) {
-            best = i;
-            best_class = now;
         }
     }
     return best;
@@ -138,7 +98,7 @@ bool two_opt_pass(std::vector<Bead>& beads, const Vector2d& start) {
 }
 
 /// Loops nearest first, each entered at its vertex nearest to where the nozzle is.
-void append_inner_walls(std::vector<Bead> loops, Vector2d& at, std::vector<Bead>& out) {
+void append_loops(std::vector<Bead> loops, Vector2d& at, std::vector<Bead>& out) {
     std::vector<char> used(loops.size(), 0);
     for (std::size_t count = 0; count < loops.size(); ++count) {
         std::size_t best = loops.size();
@@ -203,7 +163,7 @@ std::vector<Bead> ordered_by_travel(std::vector<Bead> beads, const Vector2d& sta
     return beads;
 }
 
-std::vector<Bead> ordered(std::vector<IslandBeads> islands, const Vector2d& start_mm) {
+std::vector<Bead> ordered(std::vector<IslandBeads> islands, const Vector2d& start_mm, Seams seams) {
     std::vector<Bead> out;
     Vector2d at = start_mm;
     std::vector<char> used(islands.size(), 0);
@@ -220,11 +180,12 @@ std::vector<Bead> ordered(std::vector<IslandBeads> islands, const Vector2d& star
         }
         used[best] = 1;
         IslandBeads& island = islands[best];
-        append_inner_walls(std::move(island.inner_walls), at, out);
-        for (Bead& loop : island.outer_walls) {
-            start_at(loop, seam_vertex(loop));
+        append_loops(std::move(island.inner_walls), at, out);
+        if (seams == Seams::Free) {
+            append_loops(std::move(island.outer_walls), at, out);
+        } else {
+            append(nearest_first(std::move(island.outer_walls), at), at, out);
         }
-        append(nearest_first(std::move(island.outer_walls), at), at, out);
         append(ordered_by_travel(std::move(island.gaps), at), at, out);
         append(ordered_by_travel(std::move(island.fill), at), at, out);
     }

@@ -17,12 +17,14 @@ struct IslandBeads {
     std::vector<path::Bead> fill;
 };
 
+/// Whether outer walls begin where they are said to, or wherever is nearest.
+enum class Seams { Kept, Free };
+
 /// All beads in printing order: islands by nearest neighbour, in each the inner walls, the outer
-/// walls, the fill. Open beads may be turned round; inner walls start where the nozzle is; outer
-/// walls start at their seam: the rearmost sharp concave corner, else the rearmost sharp corner,
-/// else the rearmost point.
+/// walls, the fill. Open beads may be turned round; inner walls start where the nozzle is, and so
+/// do outer walls whose seams are free.
 [[nodiscard]] std::vector<path::Bead> ordered(std::vector<IslandBeads> islands,
-                                              const Eigen::Vector2d& start_mm);
+                                              const Eigen::Vector2d& start_mm, Seams seams);
 
 /// Open beads by nearest neighbour, then improved by turning round stretches of the sequence
 /// (2-opt) while that shortens the travel.

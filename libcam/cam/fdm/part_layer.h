@@ -2,10 +2,13 @@
 #pragma once
 
 #include "cam/fdm/bead_size.h"
+#include "cam/fdm/infill.h"
 #include "cam/fdm/skins.h"
 #include "cam/fdm/support.h"
 #include "cam/fdm/walls.h"
 #include "cam/polygon/polygon.h"
+
+#include <vector>
 
 namespace cam::fdm {
 
@@ -14,7 +17,9 @@ struct PartLayer {
     double top_mm = 0;
     BeadSize bead;
     polygon::Paths slice;
+    polygon::Paths mating;  ///< lines where the slice touches another part
     Walls walls;
+    std::vector<Line> outer_walls;  ///< closed, begun at their seams
     Interior interior;
     SupportAreas support;
 };

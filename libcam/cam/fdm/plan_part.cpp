@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/fdm/plan_part.h"
 
+#include "cam/fdm/compensation.h"
 #include "cam/fdm/layer_beads.h"
+#include "cam/fdm/mating.h"
 #include "cam/fdm/part_layer.h"
+#include "cam/fdm/seams.h"
 #include "cam/fdm/slice.h"
 #include "cam/polygon/boolean.h"
 #include "cam/polygon/offset.h"
@@ -23,6 +26,12 @@ using polygon::Paths;
 using Process = profile::FdmMachine::Process;
 
 constexpr double kFullDensity = 0.995;
+constexpr double kOnMatingMm = 0.06;  // a wall that much further from a mating face belongs to it
+// How much of the work is done after each step, as measured on parts with and without supports.
+constexpr double kSliced = 0.15;
+constexpr double kWalled = 0.35;
+constexpr double kSkinned = 0.55;
+constexpr double kSupported = 0.75;
 constexpr double kLongestFreeBridgeMm = 12;  // longer bridges sag and get support
 
 /// Heights of the layers of a part that reaches up to `height_mm`: those whose middle is below it.
@@ -61,7 +70,19 @@ Paths printable(const Paths& slice) {
     return out;
 }
 
-decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, std::vector<PartLayer>& layers,
+/// @param first  the layer on the bed
+Compensation compensation_of(const Process& process, bool first) {
+    Compensation out;
+    out.outline_inset_mm = process.outline_inset_mm;
+    out.hole_growth_mm = process.hole_growth_mm;
+    out.mating_inset_mm = process.mating_gap_mm / 2;
+    out.foot_inset_mm = first ? process.elephant_foot_mm : 0;
+    out.least_width_mm = 2 * process.first_layer_line_width_mm + 2 * process.elephant_foot_mm;
+    return out;
+}
+
+decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, const std::vector<bool>& mating,
+                           const Process& process, std::vector<PartLayer>& layers,
                            const decomp::Run& run) {
     std::vector<std::int64_t> heights;
     heights.reserve(layers.size());
@@ -72,9 +93,29 @@ decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, std::vector<PartLa
     if (!slices) {
         return decomp::fail(slices.error());
     }
-    decomp::for_each_index(run, layers.size(),
-                           [&](std::size_t i) { layers[i].slice = printable((*slices)[i]); });
+    auto lines = mating_lines(mesh, mating, heights);
+    decomp::for_each_index(run, layers.size(), [&](std::size_t i) {
+        layers[i].mating = std::move(lines[i]);
+        layers[i].slice = printable(
+            compensated((*slices)[i], layers[i].mating, compensation_of(process, i == 0)));
+    });
     return {};
+}
+
+/// Walls, and on them the seams: those look at the layer below.
+void fill_walls(std::vector<PartLayer>& layers, const Process& process, const decomp::Run& run) {
+    decomp::for_each_index(run, layers.size(), [&](std::size_t i) {
+        PartLayer& layer = layers[i];
+        layer.walls = make_walls(layer.slice, layer.bead, process.perimeters);
+        if (!layer.walls.loops.empty()) {
+            layer.outer_walls = closed_lines(layer.walls.loops.front());
+        }
+    });
+    const double reach = process.line_width_mm / 2 + process.mating_gap_mm / 2 + kOnMatingMm;
+    SeamPlanner seams(seam_place(process.seam), reach);
+    for (PartLayer& layer : layers) {
+        seams.place_seams(layer.outer_walls, layer.mating);
+    }
 }
 
 std::vector<Paths> slices_of(const std::vector<PartLayer>& layers) {
@@ -134,30 +175,39 @@ void fill_supports(const std::vector<Paths>& slices, std::vector<PartLayer>& lay
 
 decomp::Result<path::LayerStack> plan_part(const decomp::mesh::TriMesh& part_on_bed,
                                            const profile::FdmSetup& setup, const decomp::Run& run) {
+    return plan_part(part_on_bed, {}, setup, run);
+}
+
+decomp::Result<path::LayerStack> plan_part(const decomp::mesh::TriMesh& part_on_bed,
+                                           const std::vector<bool>& mating,
+                                           const profile::FdmSetup& setup, const decomp::Run& run) {
     const Process& process = setup.machine.process;
     const auto box = decomp::mesh::bounds(part_on_bed);
     std::vector<PartLayer> layers;
     if (!box.isEmpty()) {
         layers = empty_layers(box.max().z(), process);
     }
-    const auto sliced = fill_slices(part_on_bed, layers, run);
+    const auto sliced = fill_slices(part_on_bed, mating, process, layers, run);
     if (!sliced) {
         return decomp::fail(sliced.error());
     }
-    decomp::for_each_index(run, layers.size(), [&](std::size_t i) {
-        layers[i].walls = make_walls(layers[i].slice, layers[i].bead, process.perimeters);
-    });
+    run.progress("slice", kSliced);
+    fill_walls(layers, process, run);
+    run.progress("slice", kWalled);
     const std::vector<Paths> slices = slices_of(layers);
     fill_interiors(slices, layers, process, run);
+    run.progress("slice", kSkinned);
     fill_supports(slices, layers, process, run);
+    run.progress("slice", kSupported);
     path::LayerStack stack;
     stack.layers.resize(layers.size());
     decomp::for_each_index(run, layers.size(), [&](std::size_t i) {
         path::Layer& out = stack.layers[i];
         out.z_mm = layers[i].top_mm;
         out.height_mm = layers[i].bead.height_mm;
-        out.beads = make_beads(layers[i], i, setup.machine);
+        out.beads = make_beads(layers[i], i, i > 0 ? slices[i - 1] : Paths(), setup.machine);
     });
+    run.progress("slice", 1);
     if (run.cancelled()) {
         return decomp::cancelled();
     }

@@ -28,6 +28,9 @@ Bead moved(Bead bead, const Vector2d& offset) {
     for (Vector2d& p : bead.points) {
         p += offset;
     }
+    for (Vector2d& p : bead.approach.by) {
+        p += offset;
+    }
     return bead;
 }
 

@@ -16,6 +16,7 @@ using polygon::Paths;
 /// Two sides of a wall may come as near to each other as this part of the spacing; nearer, one bead
 /// takes both.
 constexpr double kLeastPairFraction = 0.6;
+constexpr double kOutputToleranceMm = 0.004;
 
 double total_perimeter_mm(const Paths& region) {
     double sum = 0;
@@ -56,6 +57,19 @@ Walls make_walls(const Paths& region, const BeadSize& bead, int count) {
         if (!wall.empty()) {
             out.loops.push_back(std::move(wall));
         }
+    }
+    return out;
+}
+
+std::vector<Line> closed_lines(const Paths& loops) {
+    std::vector<Line> out;
+    for (const auto& loop : polygon::simplified(loops, kOutputToleranceMm)) {
+        Line& line = out.emplace_back();
+        line.reserve(loop.size() + 1);
+        for (const auto& p : loop) {
+            line.push_back(polygon::to_mm(p));
+        }
+        line.push_back(line.front());
     }
     return out;
 }

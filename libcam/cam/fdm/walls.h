@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cam/fdm/bead_size.h"
+#include "cam/fdm/infill.h"
 #include "cam/polygon/polygon.h"
 
 #include <vector>
@@ -19,5 +20,9 @@ struct Walls {
 /// Lays `count` walls inside a region: the first half a width from the boundary, each further one a
 /// spacing inwards.
 [[nodiscard]] Walls make_walls(const polygon::Paths& region, const BeadSize& bead, int count);
+
+/// The loops as they are printed: closed, first point = last point, without points that nobody
+/// would miss.
+[[nodiscard]] std::vector<Line> closed_lines(const polygon::Paths& loops);
 
 }  // namespace cam::fdm

@@ -96,8 +96,8 @@ Result<PartOnPlate> read_lone_part(const MeshRequest& request, const profile::Fd
     if (!mesh) {
         return fail(mesh.error());
     }
-    return PartOnPlate{request.path.stem().string(), to_part_bed(*mesh),
-                       middle_of_bed(setup.machine)};
+    return PartOnPlate{
+        request.path.stem().string(), to_part_bed(*mesh), middle_of_bed(setup.machine), {}};
 }
 
 Result<profile::FdmSetup> setup_of(const JobFile& job, const std::filesystem::path& directory) {
@@ -129,7 +129,11 @@ Result<PartOnPlate> job_part(const std::filesystem::path& directory, const JobFi
     if (!part) {
         return fail(part.error());
     }
-    return PartOnPlate{id, orient::placed(*part, facts->part_from_model), offset_mm};
+    PartOnPlate out{id, orient::placed(*part, facts->part_from_model), offset_mm, {}};
+    for (const decomp::part::FacetSource& source : part->sources) {
+        out.mating.push_back(source.is_cut());
+    }
+    return out;
 }
 
 Result<std::vector<PartOnPlate>> job_plate(const std::filesystem::path& directory,
@@ -188,7 +192,7 @@ Result<ProvedProgram> slice_and_prove(const std::vector<PartOnPlate>& parts,
     std::string sidecar =
         verify::proof_json(verify::proof_record(program->text, placed, setup, *proof));
     return ProvedProgram{std::move(program->text), std::move(sidecar), program->facts,
-                         std::move(*proof)};
+                         std::move(*proof), std::move(program->layers)};
 }
 
 }  // namespace cam::job

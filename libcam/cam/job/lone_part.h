@@ -70,6 +70,7 @@ struct ProvedProgram {
     std::string sidecar;  ///< text of PROGRAM.proof.json
     ProgramFacts facts;
     cam::verify::Proof proof;
+    path::LayerStack layers;
 };
 
 /// Writes the program for these parts on one plate and proves it. A failed proof is no error: see

@@ -74,7 +74,7 @@ Result<path::LayerStack> plan_plate(const std::vector<PartOnPlate>& parts,
             run.progress(progress.stage, (static_cast<double>(i) + progress.fraction) /
                                              static_cast<double>(parts.size()));
         };
-        auto stack = fdm::plan_part(parts[i].mesh, setup, inner);
+        auto stack = fdm::plan_part(parts[i].mesh, parts[i].mating, setup, inner);
         if (!stack) {
             decomp::Error error = std::move(stack.error());
             error.where = error.where.empty() ? parts[i].id : parts[i].id + ", " + error.where;
@@ -104,14 +104,15 @@ Result<PlateProgram> program_plate(const std::vector<PartOnPlate>& parts,
     const motion::Estimate& estimate = program->estimate;
     return PlateProgram{
         std::move(program->text),
-        {estimate.seconds, estimate.filament_mm, estimate.filament_g, estimate.cost}};
+        {estimate.seconds, estimate.filament_mm, estimate.filament_g, estimate.cost},
+        std::move(*layers)};
 }
 
 std::vector<verify::PlacedPart> placed_parts(const std::vector<PartOnPlate>& parts) {
     std::vector<verify::PlacedPart> placed;
     for (const PartOnPlate& part : parts) {
         const Eigen::Affine3d map(bed_from_part(part.offset_mm).map());
-        placed.push_back({part.id, decomp::mesh::transformed(part.mesh, map)});
+        placed.push_back({part.id, decomp::mesh::transformed(part.mesh, map), part.mating});
     }
     return placed;
 }

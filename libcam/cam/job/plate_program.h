@@ -22,11 +22,13 @@ struct PartOnPlate {
     std::string id;
     decomp::mesh::TriMesh mesh;
     Eigen::Vector2d offset_mm = Eigen::Vector2d::Zero();
+    std::vector<bool> mating;  ///< for each triangle: another part touches it; empty: none
 };
 
 struct PlateProgram {
     std::string text;
     ProgramFacts facts;
+    path::LayerStack layers;  ///< what the program prints, in the bed frame
 };
 
 /// The middle of the chamber's floor, where a lone part stands.

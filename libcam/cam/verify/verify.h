@@ -19,6 +19,7 @@ namespace cam::verify {
 struct PlacedPart {
     std::string id;
     decomp::mesh::TriMesh mesh;
+    std::vector<bool> mating;  ///< for each triangle: another part touches it; empty: none
 };
 
 /// How a program is looked at.

@@ -28,7 +28,8 @@ TEST(PlateLayers, PartsOfDifferentHeightShareTheirLayers) {
 }
 
 TEST(PlateLayers, TheSkirtComesFirstAndKeepsItsDistance) {
-    const cam::profile::FdmSetup setup;
+    cam::profile::FdmSetup setup;
+    setup.machine.process.elephant_foot_mm = 0;
     const auto part = plan_part(tests::box({-5, -5, 0}, {5, 5, 2}), setup, {});
     ASSERT_TRUE(part);
     const auto plate = merge_layers({{&*part, {0, 0}}}, setup);
