@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/job/lone_part.h"
+#include "cam/render/render.h"
 #include "decomp/base/file.h"
 #include "decomp/base/number.h"
 #include "tools/exit_code.h"
@@ -7,8 +8,10 @@
 #include "tools/program_answer.h"
 #include "tools/values.h"
 
+#include <charconv>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace tools {
 
@@ -25,6 +28,8 @@ struct Command {
     std::string material;
     std::vector<std::string> settings;
     fs::path out;
+    std::string picture;
+    fs::path picture_file;
     bool dry_run = false;
     bool force = false;
 };
@@ -77,6 +82,40 @@ Result<Task> task_of_mesh(const Command& command, Run& run) {
     return Task{std::move(*part), std::move(*setup), command.out};
 }
 
+/// The layers that `--png` names: a number, or a sheet of several.
+Result<std::vector<std::size_t>> layers_to_draw(const std::string& word,
+                                                const cam::path::LayerStack& stack) {
+    constexpr std::size_t kOnSheet = 12;
+    if (word == "sheet") {
+        return cam::render::spread_layers(stack, kOnSheet);
+    }
+    std::size_t number = 0;
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (fault != std::errc() || end != word.data() + word.size() || number < 1 ||
+        number > stack.layers.size()) {
+        return decomp::fail(
+            "usage.layer", "there is no layer '" + word + "' to draw", {},
+            "say 'sheet', or a layer from 1 to " + std::to_string(stack.layers.size()));
+    }
+    return std::vector<std::size_t>{number - 1};
+}
+
+/// Where the picture goes: where it is told to, else beside the program.
+fs::path picture_path(const Command& command, const fs::path& program) {
+    return command.picture_file.empty() ? fs::path(program).replace_extension(".png")
+                                        : command.picture_file;
+}
+
+Result<std::string> draw(const Command& command, const cam::path::LayerStack& stack, Run& run) {
+    const auto chosen = layers_to_draw(command.picture, stack);
+    if (!chosen) {
+        return decomp::fail(chosen.error());
+    }
+    return chosen->size() == 1
+               ? cam::render::render_layer_png(stack.layers[chosen->front()], {}, run)
+               : cam::render::render_layers_png(stack, *chosen, {}, run);
+}
+
 Result<Answer> slice(const Command& command, const Run& outer) {
     Run run = outer;
     auto task =
@@ -89,16 +128,29 @@ Result<Answer> slice(const Command& command, const Run& outer) {
         return decomp::fail("file.exists", "the file exists already", task->program.string(),
                             "choose another name, or add --force");
     }
+    const fs::path picture = picture_path(command, task->program);
+    if (!command.picture.empty() && !command.force && !command.dry_run && fs::exists(picture)) {
+        return decomp::fail("file.exists", "the file exists already", picture.string(),
+                            "choose another name, or add --force");
+    }
     const auto proved = cam::job::slice_and_prove({task->part}, task->setup, task->part.id, run);
     if (!proved) {
         return decomp::fail(proved.error());
     }
+    std::vector<std::pair<fs::path, std::string>> files{{task->program, proved->text},
+                                                        {sidecar, proved->sidecar}};
+    if (!command.picture.empty()) {
+        auto png = draw(command, proved->layers, run);
+        if (!png) {
+            return decomp::fail(png.error());
+        }
+        files.emplace_back(picture, std::move(*png));
+    }
     if (!command.dry_run) {
         std::error_code ignored;
         fs::create_directories(task->program.parent_path(), ignored);
-        for (const auto& [path, text] :
-             {std::pair(task->program, &proved->text), std::pair(sidecar, &proved->sidecar)}) {
-            if (const auto written = decomp::write_file(path, *text, decomp::Overwrite::Allow);
+        for (const auto& [path, bytes] : files) {
+            if (const auto written = decomp::write_file(path, bytes, decomp::Overwrite::Allow);
                 !written) {
                 return decomp::fail(written.error());
             }
@@ -106,6 +158,7 @@ Result<Answer> slice(const Command& command, const Run& outer) {
     }
     Answer answer = proof_answer(proved->proof);
     answer.json["program"] = command.dry_run ? "" : task->program.string();
+    answer.json["picture"] = command.picture.empty() ? "" : picture.string();
     answer.json["seconds"] = proved->facts.seconds;
     answer.json["filament_mm"] = proved->facts.filament_mm;
     answer.json["filament_g"] = proved->facts.filament_g;
@@ -132,6 +185,10 @@ Action declare_slice(CLI::App& app, const Common& /*common*/) {
                       command->mesh.height_mm);
     add_solid_options(app, command->mesh.body, command->mesh.deflection_mm,
                       command->mesh.angle_deg);
+    app.add_option("--png", command->picture,
+                   "draw the beads of this layer, or 'sheet': twelve layers from bottom to top");
+    app.add_option("--png-out", command->picture_file,
+                   "picture to write; default: beside the program");
     app.add_flag("--dry-run", command->dry_run, "plan and prove, write nothing")->group("General");
     app.add_flag("--force", command->force, "overwrite")->group("General");
     return [command](const Run& run) { return slice(*command, run); };
