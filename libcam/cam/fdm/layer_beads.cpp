@@ -34,6 +34,9 @@ constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not c
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
 constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
 constexpr double kFillOverlapRoundings = 1.5;
+constexpr double kCarryingDensity = 0.6;  // infill as dense as that carries a skin like a solid
+constexpr double kLeastInternalMm = 1.0;  // half the width of what sags over sparse infill
+constexpr double kLeastInternalMm2 = 20;
 constexpr double kWidthStepMm = 0.06;  // by which the width of a tapering bead changes
 
 Speed speed_of(Feature feature, const Process& process) {
@@ -93,7 +96,7 @@ MedialLine middle_of(const Paths& blob) {
 
 class LayerBeads {
   public:
-    LayerBeads(const PartLayer& layer, std::size_t index, const Paths& below,
+    LayerBeads(const PartLayer& layer, std::size_t index, const PartLayer* below,
                const profile::FdmMachine& machine)
         : layer_(layer),
           index_(index),
@@ -107,8 +110,8 @@ class LayerBeads {
         }
         add_support();
         add_part();
-        if (index_ > 0) {
-            out_ = with_overhangs(std::move(out_), below_, process_.overhang_speed);
+        if (below_ != nullptr) {
+            out_ = with_overhangs(std::move(out_), below_->slice, process_.overhang_speed);
         }
         const BeadSize& size = layer_.bead;
         find_approaches(
@@ -285,11 +288,34 @@ class LayerBeads {
 
     void add_solid() {
         const double spacing = layer_.bead.spacing_mm();
-        for (const auto& island : polygon::islands(layer_.interior.solid)) {
-            const Paths area = island.loops();
-            add_fill(solid_feature(area), area,
-                     {spacing, layer_angle(), kSolidLinkSpacings * spacing});
+        const FillPattern pattern{spacing, layer_angle(), kSolidLinkSpacings * spacing};
+        const Paths sunken = over_infill();
+        if (!sunken.empty()) {
+            add_fill(Feature::Bridge, sunken, pattern);
         }
+        for (const auto& island :
+             polygon::islands(polygon::subtract(layer_.interior.solid, sunken))) {
+            const Paths area = island.loops();
+            add_fill(solid_feature(area), area, pattern);
+        }
+    }
+
+    /// What of the solid area lies over the sparse infill of the layer below, from line to line.
+    [[nodiscard]] Paths over_infill() const {
+        Paths out;
+        if (below_ == nullptr || below_->interior.sparse.empty() ||
+            process_.infill_density > kCarryingDensity) {
+            return out;
+        }
+        const Paths over = polygon::opened(
+            polygon::intersect(layer_.interior.solid, below_->interior.sparse), kLeastInternalMm);
+        for (const auto& island : polygon::islands(over)) {
+            const Paths loops = island.loops();
+            if (polygon::area_mm2(loops) >= kLeastInternalMm2) {
+                out.insert(out.end(), loops.begin(), loops.end());
+            }
+        }
+        return out;
     }
 
     void add_bridges() {
@@ -301,7 +327,8 @@ class LayerBeads {
     }
 
     void add_sparse() {
-        if (process_.infill_density <= 0 || layer_.interior.sparse.empty()) {
+        const bool none = process_.infill_density <= 0 && process_.interface_infill_density <= 0;
+        if (none || layer_.interior.sparse.empty()) {
             return;
         }
         const SparseFill fill{sparse_pattern(process_.infill_pattern),
@@ -311,7 +338,21 @@ class LayerBeads {
                               layer_.top_mm,
                               index_ % 2 != 0,
                               process_.infill_anchor_mm};
-        for (Line& line : fill_sparsely(fill_room(layer_.interior.sparse), fill)) {
+        Paths rest = layer_.interior.sparse;
+        if (process_.interface_infill_density > fill.density && !layer_.mating.empty()) {
+            const double walls = process_.perimeters * layer_.bead.spacing_mm();
+            const Paths behind =
+                polygon::thickened(layer_.mating, walls + process_.interface_infill_mm);
+            SparseFill denser = fill;
+            denser.density = process_.interface_infill_density;
+            add_sparse_lines(polygon::intersect(rest, behind), denser);
+            rest = polygon::subtract(rest, behind);
+        }
+        add_sparse_lines(rest, fill);
+    }
+
+    void add_sparse_lines(const Paths& area, const SparseFill& fill) {
+        for (Line& line : fill_sparsely(fill_room(area), fill)) {
             IslandBeads& island = island_of(line.front());
             island.fill.push_back(bead(Feature::SparseInfill, std::move(line)));
         }
@@ -319,7 +360,7 @@ class LayerBeads {
 
     const PartLayer& layer_;
     std::size_t index_;
-    const Paths& below_;
+    const PartLayer* below_;
     const Process& process_;
     double least_width_mm_;
     std::vector<polygon::Island> islands_;
@@ -330,7 +371,7 @@ class LayerBeads {
 
 }  // namespace
 
-std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index, const Paths& below,
+std::vector<Bead> make_beads(const PartLayer& layer, std::size_t index, const PartLayer* below,
                              const profile::FdmMachine& machine) {
     return LayerBeads(layer, index, below, machine).beads();
 }

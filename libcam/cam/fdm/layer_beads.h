@@ -13,9 +13,10 @@ namespace cam::fdm {
 /// The beads of one layer in printing order: brim (first layer only, outermost first), support,
 /// then the part island by island.
 /// @param index  of the layer, from 0; decides on angles and on first-layer speed
-/// @param below  slice of the layer below: walls over air are slowed
+/// @param below  the layer below, null under the first: walls over air are slowed, solid areas over
+/// sparse infill are bridges
 [[nodiscard]] std::vector<path::Bead> make_beads(const PartLayer& layer, std::size_t index,
-                                                 const polygon::Paths& below,
+                                                 const PartLayer* below,
                                                  const profile::FdmMachine& machine);
 
 }  // namespace cam::fdm

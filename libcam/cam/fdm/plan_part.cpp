@@ -162,9 +162,13 @@ void fill_supports(const std::vector<Paths>& slices, std::vector<PartLayer>& lay
     for (const PartLayer& layer : layers) {
         carried.push_back(carried_by_bridges(layer, process));
     }
-    const SupportOptions options{
-        process.support_angle, process.layer_height_mm, process.line_width_mm,
-        static_cast<int>(std::lround(process.support_gap_z_layers)), process.support_gap_xy_mm};
+    const SupportOptions options{process.support_angle,
+                                 process.layer_height_mm,
+                                 process.line_width_mm,
+                                 static_cast<int>(std::lround(process.support_gap_z_layers)),
+                                 process.support_gap_xy_mm,
+                                 process.support_spacing_mm,
+                                 process.support_interface_layers};
     auto supports = find_supports(slices, carried, options, run);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         layers[i].support = std::move(supports[i]);
@@ -205,7 +209,7 @@ decomp::Result<path::LayerStack> plan_part(const decomp::mesh::TriMesh& part_on_
         path::Layer& out = stack.layers[i];
         out.z_mm = layers[i].top_mm;
         out.height_mm = layers[i].bead.height_mm;
-        out.beads = make_beads(layers[i], i, i > 0 ? slices[i - 1] : Paths(), setup.machine);
+        out.beads = make_beads(layers[i], i, i > 0 ? &layers[i - 1] : nullptr, setup.machine);
     });
     run.progress("slice", 1);
     if (run.cancelled()) {

@@ -17,7 +17,6 @@ namespace {
 
 using polygon::Paths;
 
-constexpr int kInterfaceLayers = 3;
 constexpr double kNoiseMm = 0.005;           // thinner overhangs come from rounding
 constexpr double kReachMm = 0.5;             // a column is this much wider than what it carries
 constexpr double kIslandReachMm = 1.2;       // under an island, wider
@@ -32,6 +31,7 @@ constexpr double kTopReachSpacings = 1.2;  // the dense top of a column rests on
 constexpr double kNotchMm =
     1.0;  // notches in a column's outline narrower than twice this are closed
 constexpr double kSmoothMm = 0.1;
+constexpr double kLeastRoomMm2 = 0.05;  // for the centre line of a bead
 
 /// What begins on a layer and needs something below, grown by the reach of its column.
 struct Overhang {
@@ -124,6 +124,9 @@ class Descent {
         : slices_(slices),
           overhangs_(overhangs),
           gap_(static_cast<std::size_t>(std::max(options.gap_layers, 0))),
+          line_width_mm_(options.line_width_mm),
+          spacing_mm_(options.spacing_mm),
+          interface_layers_(static_cast<std::size_t>(std::max(options.interface_layers, 0))),
           top_reach_mm_(std::max(options.spacing_mm * kTopReachSpacings - kReachMm, 0.0)),
           run_(run),
           clear_(slices.size()) {
@@ -140,17 +143,30 @@ class Descent {
 
     [[nodiscard]] std::vector<SupportAreas> areas() const {
         std::vector<Columns> columns(slices_.size());
-        Columns now;
-        for (std::size_t i = slices_.size(); i-- > 0 && !run_.cancelled();) {
-            take_over(i, now);
-            columns[i] = now;
-        }
+        // The two kinds do not know of each other until they are united.
+        decomp::for_each_index(run_, 2, [&](std::size_t kind) {
+            Columns now;
+            for (std::size_t i = slices_.size(); i-- > 0 && !run_.cancelled();) {
+                if (kind == 0) {
+                    take_over_attached(i, now.attached);
+                    columns[i].attached = now.attached;
+                } else {
+                    take_over_islands(i, now.islands);
+                    columns[i].islands = now.islands;
+                }
+            }
+        });
+        std::vector<Paths> whole(slices_.size());
+        decomp::for_each_index(run_, columns.size(), [&](std::size_t i) {
+            whole[i] = polygon::unite(smooth(columns[i].attached, i), columns[i].islands);
+        });
         std::vector<SupportAreas> out(slices_.size());
         decomp::for_each_index(run_, columns.size(), [&](std::size_t i) {
-            const Paths column = polygon::unite(smooth(columns[i].attached, i), columns[i].islands);
-            if (!column.empty()) {
-                out[i].interface = polygon::intersect(column, contact(i));
-                out[i].body = polygon::subtract(column, out[i].interface);
+            if (!whole[i].empty()) {
+                const Paths above = i + 1 < whole.size() ? under_slender(whole[i + 1]) : Paths();
+                const Paths dense = polygon::unite(contact(i), above);
+                out[i].interface = with_beads(polygon::intersect(whole[i], dense));
+                out[i].body = with_beads(polygon::subtract(whole[i], dense));
             }
         });
         drop_floating(out);
@@ -159,24 +175,50 @@ class Descent {
 
   private:
     /// Adds what layer i has to carry, and takes away where the part is.
-    void take_over(std::size_t i, Columns& now) const {
+    void take_over_attached(std::size_t i, Paths& now) const {
         const std::size_t above = i + 1 + gap_;
-        if (above < slices_.size()) {
-            const Overhang& o = overhangs_[above];
-            if (!o.attached.empty()) {
-                now.attached = polygon::unite(now.attached, o.attached);
+        if (above < slices_.size() && !overhangs_[above].attached.empty()) {
+            now = polygon::unite(now, overhangs_[above].attached);
+        }
+        if (!now.empty()) {
+            now = polygon::simplified(polygon::subtract(now, clear_[i]), kToleranceMm);
+        }
+    }
+
+    void take_over_islands(std::size_t i, Paths& now) const {
+        const std::size_t above = i + 1 + gap_;
+        if (above < slices_.size() && !overhangs_[above].islands.empty()) {
+            now = polygon::unite(now, overhangs_[above].islands);
+        }
+        if (!now.empty()) {
+            now = beside_part(widened(now), i);
+        }
+    }
+
+    /// The pieces in which the middle of a bead has room: others are not printed, and carry
+    /// nothing.
+    [[nodiscard]] Paths with_beads(const Paths& area) const {
+        Paths out;
+        for (const polygon::Island& island : polygon::islands(area)) {
+            const Paths loops = island.loops();
+            if (polygon::area_mm2(polygon::offset(loops, -line_width_mm_ / 2)) >= kLeastRoomMm2) {
+                out.insert(out.end(), loops.begin(), loops.end());
             }
-            if (!o.islands.empty()) {
-                now.islands = polygon::unite(now.islands, o.islands);
+        }
+        return out;
+    }
+
+    /// Pieces that may fall between two lines of a wider column below them need a dense one there,
+    /// which reaches over to lines on either side.
+    [[nodiscard]] Paths under_slender(const Paths& column) const {
+        Paths out;
+        for (const polygon::Island& island : polygon::islands(column)) {
+            const Paths loops = island.loops();
+            if (polygon::offset(loops, -spacing_mm_).empty()) {
+                out.insert(out.end(), loops.begin(), loops.end());
             }
         }
-        if (!now.attached.empty()) {
-            now.attached =
-                polygon::simplified(polygon::subtract(now.attached, clear_[i]), kToleranceMm);
-        }
-        if (!now.islands.empty()) {
-            now.islands = beside_part(widened(now.islands), i);
-        }
+        return out.empty() ? out : polygon::offset(out, top_reach_mm_);
     }
 
     /// Away from the part where there is room, close to it where there is none.
@@ -206,7 +248,7 @@ class Descent {
     /// lines.
     [[nodiscard]] Paths contact(std::size_t i) const {
         Paths out;
-        for (std::size_t k = 1; k <= kInterfaceLayers; ++k) {
+        for (std::size_t k = 1; k <= interface_layers_; ++k) {
             const std::size_t above = i + k + gap_;
             if (above < slices_.size()) {
                 const Overhang& o = overhangs_[above];
@@ -248,6 +290,9 @@ class Descent {
     const std::vector<Paths>& slices_;
     const std::vector<Overhang>& overhangs_;
     std::size_t gap_;
+    double line_width_mm_;
+    double spacing_mm_;
+    std::size_t interface_layers_;
     double top_reach_mm_;  ///< of dense tops beyond what they carry
     const decomp::Run& run_;
     std::vector<Paths> clear_;  ///< the part and the gap beside it, where anything hangs above

@@ -14,9 +14,10 @@ struct SupportOptions {
         angle;  ///< faces flatter than this against the horizontal need support; 0: islands only
     double layer_height_mm = 0.2;
     double line_width_mm = 0.45;
-    int gap_layers = 1;       ///< left free between support and the part above it
-    double gap_xy_mm = 0.6;   ///< left free beside the part
-    double spacing_mm = 2.5;  ///< of the lines in columns: their dense tops reach over to the next
+    int gap_layers = 1;        ///< left free between support and the part above it
+    double gap_xy_mm = 0.6;    ///< left free beside the part
+    double spacing_mm = 2.5;   ///< of the lines in columns: their dense tops reach over to the next
+    int interface_layers = 3;  ///< dense ones under the part
 };
 
 /// What of one layer is support; the two areas do not overlap.

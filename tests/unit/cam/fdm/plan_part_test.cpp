@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 namespace {
@@ -141,8 +142,66 @@ TEST(PlanPart, TopAndBottomAreSolidAndTheMiddleIsSparse) {
     auto top = count_features(stack->layers.back());
     EXPECT_GT(top[Feature::TopSkin], 0);
     EXPECT_EQ(top[Feature::SparseInfill], 0);
-    auto under_top = count_features(stack->layers[stack->layers.size() - 5]);
+    auto under_top = count_features(stack->layers[stack->layers.size() - 4]);
     EXPECT_GT(under_top[Feature::SolidInfill], 0);
+    auto over_infill = count_features(stack->layers[stack->layers.size() - 5]);
+    EXPECT_GT(over_infill[Feature::Bridge], 0)
+        << "the first skin hangs from line to line of infill";
+    EXPECT_EQ(under_top[Feature::Bridge], 0);
+}
+
+/// A box and which of its triangles lie at x = 15.
+struct MatingBox {
+    tests::TriMesh mesh = tests::box({-15, -15, 0}, {15, 15, 6.05});
+    std::vector<bool> mating;
+
+    MatingBox() {
+        for (const auto& t : mesh.triangles) {
+            mating.push_back(
+                std::all_of(t.begin(), t.end(), [&](auto v) { return mesh.points[v].x() == 15; }));
+        }
+    }
+};
+
+TEST(PlanPart, AFaceThatTouchesAnotherPartGivesWayAndTakesTheSeams) {
+    const MatingBox part;
+    auto gap = setup();
+    gap.machine.process.mating_gap_mm = 0.3;
+    const auto stack = plan_part(part.mesh, part.mating, gap, {});
+    ASSERT_TRUE(stack);
+    for (std::size_t i = 1; i < stack->layers.size(); ++i) {
+        for (const Bead& bead : stack->layers[i].beads) {
+            if (bead.feature == Feature::OuterWall) {
+                EXPECT_NEAR(bead.points.front().x(), 15 - 0.15 - 0.225, 1e-3) << i;
+                EXPECT_LT(std::abs(bead.points.front().y()), 14) << "not at the edge";
+                double low = 0;
+                for (const auto& p : bead.points) {
+                    low = std::min(low, p.x());
+                }
+                EXPECT_NEAR(low, -15 + 0.225, 1e-3) << "the other side keeps its place";
+            }
+        }
+    }
+}
+
+TEST(PlanPart, InfillBehindAnInterfaceIsDenser) {
+    const MatingBox part;
+    auto denser = setup();
+    denser.machine.process.interface_infill_density = 0.6;
+    denser.machine.process.interface_infill_mm = 5;
+    const auto sparse_near = [&](const std::vector<bool>& mating, bool near) {
+        const auto stack = plan_part(part.mesh, mating, denser, {});
+        double sum = 0;
+        for (const Bead& bead : stack->layers[15].beads) {
+            for (std::size_t i = 0; i + 1 < bead.points.size(); ++i) {
+                const bool here = (bead.points[i] + bead.points[i + 1]).x() / 2 > 7;
+                const bool counts = bead.feature == Feature::SparseInfill && here == near;
+                sum += counts ? (bead.points[i + 1] - bead.points[i]).norm() : 0;
+            }
+        }
+        return sum;
+    };
+    EXPECT_GT(sparse_near(part.mating, true), 2 * sparse_near({}, true));
 }
 
 TEST(PlanPart, APortalIsBridgedAcrossItsOpening) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/fdm/support.h"
 
+#include "cam/polygon/boolean.h"
+#include "cam/polygon/offset.h"
 #include "tests/support/regions.h"
 
 #include <gtest/gtest.h>
@@ -103,6 +105,42 @@ TEST(Support, AnIslandOverThePartStandsOnThePart) {
     }
     for (std::size_t i = 8; i < 14; ++i) {
         EXPECT_GT(total_mm2(areas[i]), 4) << i;
+    }
+}
+
+TEST(Support, NoPieceIsTooNarrowForABeadOrStandsOnNothing) {
+    // Pegs of many sizes that hang beside and over a wedge whose slope cuts into their columns.
+    std::vector<Paths> slices(kLayers, Paths{});
+    for (std::size_t i = 0; i < kLayers; ++i) {
+        const double slope = 0.4 * static_cast<double>(i);
+        slices[i] = {rectangle({slope, 0}, {20, 20})};
+        if (i >= kLayers / 2) {
+            for (int k = 0; k < 5; ++k) {
+                const double y = 4.0 * k;
+                slices[i] = cam::polygon::unite(
+                    slices[i], {rectangle({-3.0 - k, y}, {-2.5, y + 0.3 + 0.2 * k})});
+            }
+        }
+    }
+    const auto areas = supports_of(slices);
+    const double half = SupportOptions{}.line_width_mm / 2;
+    Paths below;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        for (const Paths& kind : {areas[i].body, areas[i].interface}) {
+            for (const auto& island : cam::polygon::islands(kind)) {
+                EXPECT_FALSE(cam::polygon::offset(island.loops(), -half).empty()) << i;
+            }
+        }
+        const Paths now = cam::polygon::unite(areas[i].body, areas[i].interface);
+        if (i > 0) {
+            const Paths carrying = cam::polygon::unite(below, slices[i - 1]);
+            for (const auto& island : cam::polygon::islands(now)) {
+                EXPECT_GT(cam::polygon::area_mm2(cam::polygon::intersect(island.loops(), carrying)),
+                          0)
+                    << i;
+            }
+        }
+        below = now;
     }
 }
 
