@@ -22,7 +22,7 @@ struct PartOnPlate {
     std::string id;
     decomp::mesh::TriMesh mesh;
     Eigen::Vector2d offset_mm = Eigen::Vector2d::Zero();
-    std::vector<bool> mating;  ///< for each triangle: another part touches it; empty: none
+    std::vector<bool> mating = {};  ///< for each triangle: another part touches it; empty: none
 };
 
 struct PlateProgram {

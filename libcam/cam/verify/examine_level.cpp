@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/verify/examine_level.h"
 
+#include "cam/verify/holes.h"
 #include "cam/verify/islands.h"
 #include "cam/verify/limits.h"
 #include "cam/verify/overhangs.h"
@@ -48,6 +49,8 @@ class LevelExam {
     void check_outside();
     void check_fill();
     void check_support();
+    void check_holes();
+    [[nodiscard]] double meant_inset_mm() const;
     void check_overhangs(const Bitmap& carried, const Bitmap& previous);
     template <class Body>
     void rows_of(std::uint32_t k, const Body& body) const;
@@ -219,13 +222,42 @@ void LevelExam::slice_parts() {
     report_.section_mm2 = mm2(inside_.count());
 }
 
+/// How far inside the drawn surface the profile wants the skin; little enough for the ring is none.
+double LevelExam::meant_inset_mm() const {
+    const auto& process = *scene_.process;
+    const bool mates = std::any_of(scene_.mating->begin(), scene_.mating->end(),
+                                   [](const Slicer& s) { return !s.bounds().isEmpty(); });
+    double inset = std::max({process.outline_inset_mm, process.hole_growth_mm,
+                             mates ? process.mating_gap_mm / 2 : 0.0, 0.0});
+    inset = inset > limits::kRingOuterMm / 2 ? inset : 0.0;
+    return inset + (report_.first ? process.elephant_foot_mm : 0);
+}
+
+/// Round holes must be as wide as drawn and as the profile adds.
+void LevelExam::check_holes() {
+    for (const Section& section : sections_) {
+        for (const RoundHole& hole : round_holes(section)) {
+            const double meant = hole.diameter_mm + 2 * scene_.process->hole_growth_mm +
+                                 (report_.first ? 2 * scene_.process->elephant_foot_mm : 0);
+            const double error = free_diameter_mm(hole, inside_, part_, scene_.pixel_mm) - meant;
+            ++report_.holes;
+            report_.hole_error_mm += error;
+            if (std::abs(error) > std::abs(report_.worst_hole_mm)) {
+                report_.worst_hole_mm = error;
+                report_.worst_hole_at = hole.centre;
+            }
+        }
+    }
+}
+
 /// Skin that a bead of the nozzle's width could have covered, 0.1 .. 0.35 mm inside the surface.
 void LevelExam::check_skin() {
+    const double inset = meant_inset_mm();
     Bitmap outer(window_);
     Bitmap inner(window_);
     for (const Section& section : sections_) {
-        draw_outline(section, limits::kRingOuterMm, scene_.pixel_mm, outer);
-        draw_outline(section, limits::kRingInnerMm, scene_.pixel_mm, inner);
+        draw_outline(section, limits::kRingOuterMm + inset, scene_.pixel_mm, outer);
+        draw_outline(section, limits::kRingInnerMm + inset, scene_.pixel_mm, inner);
     }
     // What a disc of 0.2 mm radius inside the part can reach: sharper tips cannot be printed.
     const int radius = static_cast<int>(std::lround(0.2 / scene_.pixel_mm));
@@ -252,7 +284,8 @@ void LevelExam::check_skin() {
 void LevelExam::check_outside() {
     Bitmap allowed = inside_;
     for (const Section& section : sections_) {
-        draw_outline(section, limits::kOutsideMm, scene_.pixel_mm, allowed);
+        draw_outline(section, limits::kOutsideMm + std::max(0.0, -scene_.process->outline_inset_mm),
+                     scene_.pixel_mm, allowed);
     }
     std::size_t outside = 0;
     for (std::size_t w = 0; w < allowed.words().size(); ++w) {
@@ -326,6 +359,12 @@ void LevelExam::check_support() {
         report_.internal_mm2 = mm2(internal);
         report_.air_mm2 = mm2(air - internal);
     }
+    std::size_t over_gap = 0;
+    for (std::size_t w = 0; w < all_.words().size(); ++w) {
+        over_gap += static_cast<std::size_t>(std::popcount(
+            part_.words()[w] & carried.words()[w] & ~touched.words()[w] & ~previous.words()[w]));
+    }
+    report_.support_contact_mm2 = mm2(over_gap);
     if (level_.z <= contact) {
         return;  // over the bed by no more than the gap that is allowed
     }
@@ -393,6 +432,7 @@ void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
 }
 
 LevelReport LevelExam::run() {
+    report_.first = level_.layer == 0;
     measure_lies();
     for (const Slicer& slicer : *scene_.slicers) {
         sections_.push_back(slicer.at(level_.z - report_.height_mm / 2));
@@ -403,6 +443,12 @@ LevelReport LevelExam::run() {
     if (level_.layer >= 0 && !sections_.empty()) {
         check_skin();
         check_outside();
+        check_holes();
+        std::vector<Section> faces;
+        for (const Slicer& slicer : *scene_.mating) {
+            faces.push_back(slicer.at(level_.z - report_.height_mm / 2));
+        }
+        report_.seams = count_seams(*scene_.beads, *scene_.levels, level_, faces);
     }
     check_support();
     if (level_.layer >= 0) {

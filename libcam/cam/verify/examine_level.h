@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cam/profile/fdm_machine.h"
 #include "cam/verify/levels.h"
+#include "cam/verify/seams.h"
 #include "cam/verify/slicer.h"
+
+#include <Eigen/Core>
 
 #include <vector>
 
@@ -13,6 +17,8 @@ struct Scene {
     const std::vector<Bead>* beads = nullptr;
     const Levels* levels = nullptr;
     const std::vector<Slicer>* slicers = nullptr;  ///< one a part
+    const std::vector<Slicer>* mating = nullptr;   ///< faces that touch another part, one a part
+    const profile::FdmMachine::Process* process = nullptr;  ///< what is meant to differ
     double pixel_mm = 0.1;
 };
 
@@ -40,6 +46,13 @@ struct LevelReport {
     double air_mm2 = 0;       ///< beads over nothing, outside the section of the layer below
     double internal_mm2 = 0;  ///< beads over nothing, inside it: infill bridges
     double bead_mm2 = 0;
+    double support_contact_mm2 = 0;
+    bool first = false;  ///< lowest layer of parts
+    int holes = 0;
+    double hole_error_mm = 0;  ///< sum
+    double worst_hole_mm = 0;  ///< signed
+    Eigen::Vector2d worst_hole_at = Eigen::Vector2d::Zero();
+    SeamCount seams;
     std::vector<PartLevel> parts;
 };
 

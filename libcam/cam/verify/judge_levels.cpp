@@ -71,6 +71,78 @@ void tell_fill(Streak& streak, FaultList& faults, bool over) {
     streak = Streak{};
 }
 
+/// What all levels together say of feet, holes and seams.
+struct Details {
+    double contact_mm2 = 0;
+    double foot_mm2 = 0;
+    double foot_section_mm2 = 0;
+    double support_mm2 = 0;
+    int holes = 0;
+    double hole_error_mm = 0;
+    double worst_hole_mm = 0;
+    SeamCount seams;
+};
+
+void add_details(const LevelReport& report, Details& totals) {
+    if (report.first) {
+        totals.contact_mm2 += report.bead_mm2;
+        for (const PartLevel& part : report.parts) {
+            totals.foot_mm2 += part.covered_share * part.section_mm2;
+            totals.foot_section_mm2 += part.section_mm2;
+        }
+    }
+    totals.support_mm2 += report.support_contact_mm2;
+    totals.holes += report.holes;
+    totals.hole_error_mm += report.hole_error_mm;
+    if (std::abs(report.worst_hole_mm) > std::abs(totals.worst_hole_mm)) {
+        totals.worst_hole_mm = report.worst_hole_mm;
+    }
+    totals.seams.loops += report.seams.loops;
+    totals.seams.touching += report.seams.touching;
+    totals.seams.on_face += report.seams.on_face;
+}
+
+void judge_details(const Level& level, const LevelReport& report, const Scene& scene,
+                   FaultList& faults) {
+    if (std::abs(report.worst_hole_mm) > limits::kHoleMm) {
+        faults.add({"proof.hole_diameter", level.first_line, level.layer,
+                    "the round hole at X " + decimal(report.worst_hole_at.x(), 1) + " Y " +
+                        decimal(report.worst_hole_at.y(), 1) + " is " +
+                        decimal(std::abs(report.worst_hole_mm), 2) + " mm too " +
+                        (report.worst_hole_mm > 0 ? "wide" : "narrow") + ", " +
+                        decimal(limits::kHoleMm, 2) + " mm is allowed"});
+    }
+    if (!report.first || scene.process->bottom_layers == 0) {
+        return;
+    }
+    double covered = 0;
+    double section = 0;
+    for (const PartLevel& part : report.parts) {
+        covered += part.covered_share * part.section_mm2;
+        section += part.section_mm2;
+    }
+    if (section >= limits::kLeastSolidMm2 && covered < limits::kFirstLayerShare * section) {
+        faults.add({"proof.first_layer", level.first_line, level.layer,
+                    "only " + decimal(100 * covered / section, 1) +
+                        " % of the parts' feet touch the bed, " +
+                        decimal(100 * limits::kFirstLayerShare, 0) + " % must"});
+    }
+}
+
+void tell_details(const Details& totals, Figures& figures) {
+    figures.first_layer_mm2 = totals.contact_mm2;
+    figures.first_layer_percent =
+        totals.foot_section_mm2 > 0 ? 100 * totals.foot_mm2 / totals.foot_section_mm2 : 0;
+    figures.support_contact_mm2 = totals.support_mm2;
+    figures.round_holes = totals.holes;
+    figures.hole_error_mm = totals.holes > 0 ? totals.hole_error_mm / totals.holes : 0;
+    figures.worst_hole_error_mm = totals.worst_hole_mm;
+    figures.outer_walls = totals.seams.loops;
+    figures.mating_walls = totals.seams.touching;
+    figures.mating_seams_percent =
+        totals.seams.touching > 0 ? 100.0 * totals.seams.on_face / totals.seams.touching : 0;
+}
+
 }  // namespace
 
 void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, FaultList& faults,
@@ -88,6 +160,7 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
     double bead_area = 0;
     double solid_volume = 0;
     double solid_room = 0;
+    Details totals;
     double worst_outside = 0;
     long worst_line = 0;
     int worst_layer = -1;
@@ -116,6 +189,8 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
                             decimal(limits::kHangingMm2, 1) + " mm^2 are allowed"});
         }
         ++figures.layers;
+        add_details(report, totals);
+        judge_details(level, report, scene, faults);
         ring += report.ring_mm2;
         uncovered += report.uncovered_mm2;
         part += report.part_mm3;
@@ -163,6 +238,7 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
     tell_outside(outside, faults);
     tell_fill(over, faults, true);
     tell_fill(under, faults, false);
+    tell_details(totals, figures);
     figures.uncovered_skin_percent = ring > 0 ? 100 * uncovered / ring : 0;
     figures.out_of_part_percent = part > 0 ? 100 * figures.out_of_part_mm3 / part : 0;
     figures.solid_fill_ratio = solid_room > 0 ? solid_volume / solid_room : 0;

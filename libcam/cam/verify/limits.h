@@ -22,7 +22,7 @@ inline constexpr double kOutsideShare = 0.0005;  ///< of the part's material; pe
 inline constexpr double kContactLayers = 2;  ///< free layers between a support and what it carries
 inline constexpr double kContactSlackMm = 0.06;
 inline constexpr double kIslandMm2 = 0.3;         ///< smaller specks of the part are no island
-inline constexpr double kSupportIslandMm2 = 1.5;  ///< nor are these of supports: a lost thread
+inline constexpr double kSupportIslandMm2 = 0.5;  ///< nor are these of supports: a lost thread
 inline constexpr double kHangingMm = 3.0;         ///< free overhang of one layer
 inline constexpr double kHangingMm2 = 4.0;        ///< beyond that, one layer; peers 0
 inline constexpr double kAnchorMm = 1.0;  ///< ends of bridges lie that near to what carries them
@@ -33,6 +33,8 @@ inline constexpr double kBridgeShare =
     0.02;  ///< of the beads over nothing, in a layer judged for its flow
 inline constexpr double kFillLow = 0.94;  ///< V / (A h); peers 1.001 .. 1.007
 inline constexpr double kFillHigh = 1.05;
+inline constexpr double kHoleMm = 0.35;          ///< of a round hole's diameter; peers 0.15
+inline constexpr double kFirstLayerShare = 0.8;  ///< of a solid foot that must touch the bed
 inline constexpr double kMissingLayers =
     1.6;  ///< step between two layers of a part, in layer heights
 inline constexpr double kPresence =

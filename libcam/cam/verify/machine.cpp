@@ -95,6 +95,8 @@ void Machine::comment(std::string_view text) {
     }
     text.remove_prefix(text.find(':') + 1);
     declared_ = true;
+    outer_wall_ = contains_word(text, "outer") || contains_word(text, "external perimeter") ||
+                  contains_word(text, "overhang");
     if (contains_word(text, "support")) {
         role_ = Role::Support;
     } else if (contains_word(text, "skirt") || contains_word(text, "brim") ||

@@ -95,6 +95,7 @@ class Machine {
     bool e_absolute_ = true;
     double bed_target_ = 0;
     Role role_ = Role::Part;
+    bool outer_wall_ = false;
     bool declared_ = false;  ///< a feature comment has been seen
     bool cold_told_ = false;
     bool bed_ever_ = false;

@@ -217,7 +217,8 @@ void Machine::deposit(const Eigen::Vector3d& from, const Eigen::Vector3d& to, do
     out_.beads.push_back({static_cast<float>(from.x()), static_cast<float>(from.y()),
                           static_cast<float>(to.x()), static_cast<float>(to.y()),
                           static_cast<float>(to.z()), static_cast<float>(volume * intended_),
-                          static_cast<std::int32_t>(line_), declared_ ? role_ : Role::Adhesion});
+                          static_cast<std::int32_t>(line_), declared_ ? role_ : Role::Adhesion,
+                          outer_wall_});
 }
 
 bool Machine::near_chamber(const Eigen::Vector3d& point) const {

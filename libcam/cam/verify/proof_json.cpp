@@ -48,6 +48,15 @@ void for_each_figure(Figures& f, const Body& body) {
     body("declared_mm3", f.declared_mm3);
     body("air_percent", f.air_percent);
     body("internal_bridge_percent", f.internal_bridge_percent);
+    body("first_layer_mm2", f.first_layer_mm2);
+    body("first_layer_percent", f.first_layer_percent);
+    body("support_contact_mm2", f.support_contact_mm2);
+    body("round_holes", f.round_holes);
+    body("hole_error_mm", f.hole_error_mm);
+    body("worst_hole_error_mm", f.worst_hole_error_mm);
+    body("outer_walls", f.outer_walls);
+    body("mating_walls", f.mating_walls);
+    body("mating_seams_percent", f.mating_seams_percent);
 }
 
 void read_record(const Json& json, ProofRecord& record) {

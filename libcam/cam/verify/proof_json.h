@@ -10,7 +10,7 @@
 namespace cam::verify {
 
 /// Raised whenever a checker of the same inputs may judge otherwise.
-inline constexpr int kCheckerVersion = 1;
+inline constexpr int kCheckerVersion = 2;
 
 /// A placed part by the hash of its mesh.
 struct PartHash {

@@ -24,6 +24,7 @@ struct Bead {
     float volume_mm3 = 0;
     std::int32_t line = 0;
     Role role = Role::Part;
+    bool outer_wall = false;  ///< of the part's surface, or a stretch of wall over air
 };
 
 /// Something wrong that the replay saw; the layer is found later from z.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace cam::verify {
 namespace {
@@ -40,6 +41,20 @@ decomp::Status check_parts(const std::vector<PlacedPart>& parts, const profile::
         }
     }
     return {};
+}
+
+/// The facets on which other parts touch this one.
+decomp::mesh::TriMesh mating_faces(const PlacedPart& part) {
+    decomp::mesh::TriMesh out;
+    for (std::size_t i = 0; i < part.mesh.triangles.size() && i < part.mating.size(); ++i) {
+        if (part.mating[i]) {
+            out.triangles.push_back(part.mesh.triangles[i]);
+        }
+    }
+    if (!out.triangles.empty()) {
+        out.points = part.mesh.points;
+    }
+    return out;
 }
 
 /// Levels in batches from the bed up: a level needs the rough deposits of those below, and nothing
@@ -89,11 +104,20 @@ decomp::Result<Proof> examine(std::string_view program, const std::vector<Placed
     const Levels levels = sort_levels(replayed->beads);
     std::vector<Slicer> slicers;
     std::vector<std::string> ids;
+    std::vector<decomp::mesh::TriMesh> faces;  // must outlive their slicers
+    std::transform(parts.begin(), parts.end(), std::back_inserter(faces), mating_faces);
+    std::vector<Slicer> mating;
     for (const PlacedPart& part : parts) {
         slicers.emplace_back(part.mesh);
+        mating.emplace_back(faces[ids.size()]);
         ids.push_back(part.id);
     }
-    const Scene scene{&replayed->beads, &levels, &slicers, std::clamp(options.pixel_mm, 0.05, 0.2)};
+    const Scene scene{&replayed->beads,
+                      &levels,
+                      &slicers,
+                      &mating,
+                      &setup.machine.process,
+                      std::clamp(options.pixel_mm, 0.05, 0.2)};
     auto reports = examine_levels(scene, run);
     if (!reports) {
         return decomp::fail(reports.error());

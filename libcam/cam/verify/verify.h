@@ -19,7 +19,7 @@ namespace cam::verify {
 struct PlacedPart {
     std::string id;
     decomp::mesh::TriMesh mesh;
-    std::vector<bool> mating;  ///< for each triangle: another part touches it; empty: none
+    std::vector<bool> mating = {};  ///< for each triangle: another part touches it; empty: none
 };
 
 /// How a program is looked at.
@@ -59,6 +59,15 @@ struct Figures {
     double internal_bridge_percent =
         0;  ///< of the part's bead area: over nothing, inside the layer below
     int solid_layers = 0;
+    double first_layer_mm2 = 0;       ///< of the parts' beads on the bed
+    double first_layer_percent = 0;   ///< of the parts' lowest sections
+    double support_contact_mm2 = 0;   ///< of the parts' beads over the gap above a support
+    int round_holes = 0;              ///< upright ones, counted layer by layer
+    double hole_error_mm = 0;         ///< of their diameters, mean; with the profile's growth
+    double worst_hole_error_mm = 0;   ///< in one layer
+    int outer_walls = 0;              ///< closed ones
+    int mating_walls = 0;             ///< of them, along a face that touches another part
+    double mating_seams_percent = 0;  ///< of these, begun on that face
 };
 
 /// The verdict on one program.

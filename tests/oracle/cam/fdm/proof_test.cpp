@@ -3,10 +3,14 @@
 #include "cam/fdm/plate_layers.h"
 #include "cam/post/post_fdm.h"
 #include "cam/verify/verify.h"
+#include "decomp/base/rng.h"
 #include "decomp/mesh/measure.h"
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 /// The proof as an oracle of planning: it re-reads the program, slices the mesh by itself and
 /// compares.
@@ -55,11 +59,12 @@ TriMesh raised(TriMesh mesh, double by_mm) {
 }
 
 /// The program of one part in the middle of the bed, proved.
-Proof proof_of(const TriMesh& part, const std::vector<std::string>& settings = {}) {
+Proof proof_of(const TriMesh& part, const std::vector<std::string>& settings = {},
+               const std::vector<bool>& mating = {}) {
     const auto setup = cam::profile::read_fdm_setup(
         HEW_SOURCE_DIR "/machine_profiles/fdm/prusa-mk3s.toml", {}, settings);
     EXPECT_TRUE(setup) << (setup ? "" : setup.error().text());
-    const auto stack = cam::fdm::plan_part(part, *setup, {});
+    const auto stack = cam::fdm::plan_part(part, mating, *setup, {});
     EXPECT_TRUE(stack) << (stack ? "" : stack.error().text());
     const auto& chamber = setup->machine.chamber;
     const Eigen::Vector3d middle = (chamber.min_mm + chamber.max_mm) / 2;
@@ -70,7 +75,8 @@ Proof proof_of(const TriMesh& part, const std::vector<std::string>& settings = {
     for (auto& p : placed.points) {
         p.head<2>() += middle.head<2>();
     }
-    const auto proof = cam::verify::examine(program->text, {{"part", placed}}, *setup, {}, {});
+    const auto proof =
+        cam::verify::examine(program->text, {{"part", placed, mating}}, *setup, {}, {});
     EXPECT_TRUE(proof) << (proof ? "" : proof.error().text());
     return *proof;
 }
@@ -90,9 +96,83 @@ void expect_good(const Proof& proof) {
 TEST(ProofOfPlan, ACube) { expect_good(proof_of(box({-20, -20, 0}, {20, 20, 40}))); }
 
 TEST(ProofOfPlan, ACubeFullOfPlastic) {
-    const auto proof = proof_of(box({-10, -10, 0}, {10, 10, 10}), {"process.infill_density=1"});
+    const auto proof = proof_of(box({-10, -10, 0}, {10, 10, 10}),
+                                {"process.infill_density=1", "process.elephant_foot_mm=0"});
     expect_good(proof);
     EXPECT_EQ(proof.figures.solid_layers, 50);
+}
+
+/// The triangles of a mesh that lie at this x.
+std::vector<bool> faces_at_x(const TriMesh& mesh, double x) {
+    std::vector<bool> out;
+    for (const auto& t : mesh.triangles) {
+        out.push_back(std::all_of(t.begin(), t.end(),
+                                  [&](std::uint32_t v) { return mesh.points[v].x() == x; }));
+    }
+    return out;
+}
+
+TEST(ProofOfPlan, AHalfWhoseSeamsLieOnItsCut) {
+    const auto half = box({-20, -15, 0}, {10, 15, 12});
+    const auto proof = proof_of(half, {"process.mating_gap_mm=0.2"}, faces_at_x(half, 10));
+    EXPECT_TRUE(proof.passed());
+    EXPECT_EQ(proof.figures.mating_walls, proof.figures.layers);
+    EXPECT_GE(proof.figures.mating_seams_percent, 95);
+}
+
+TEST(ProofOfPlan, EveryPatternOfInfillAtManyDensities) {
+    for (const char* pattern : {"rectilinear", "gyroid", "cubic", "grid", "concentric"}) {
+        for (const char* density : {"0.05", "0.4"}) {
+            expect_good(proof_of(box({-15, -15, 0}, {15, 15, 5}),
+                                 {std::string("process.infill_pattern=") + pattern,
+                                  std::string("process.infill_density=") + density}));
+        }
+    }
+}
+
+TEST(ProofOfPlan, CompensationsAreWhatTheProofExpects) {
+    const auto plate = box({-15, -15, 0}, {15, 15, 5});
+    for (const char* inset : {"0.1", "-0.1"}) {
+        const auto proof = proof_of(plate, {"process.elephant_foot_mm=0.3",
+                                            std::string("process.outline_inset_mm=") + inset});
+        EXPECT_TRUE(proof.passed()) << inset;
+    }
+}
+
+/// One of several kinds of shapes: lumps, piles of blocks, plates with holes.
+TriMesh random_shape(decomp::Rng& rng) {
+    const auto kind = rng.below(3);
+    if (kind == 0) {
+        TriMesh lump = tests::sphere(rng.uniform(8, 18), 36, 23);
+        for (auto& p : lump.points) {
+            p *= rng.uniform(0.92, 1.06);
+        }
+        const double low = decomp::mesh::bounds(lump).min().z();
+        return raised(std::move(lump), -low);
+    }
+    TriMesh pile;
+    const auto blocks = 2 + rng.below(4);
+    for (std::uint64_t k = 0; k < blocks; ++k) {
+        const Eigen::Vector3d low(rng.uniform(-15, 5), rng.uniform(-15, 5),
+                                  k == 0 || kind == 2 ? 0 : rng.uniform(0, 6));
+        const Eigen::Vector3d size(rng.uniform(1, 15), rng.uniform(1, 15), rng.uniform(2, 12));
+        pile = tests::joined(pile, box(low, low + size));
+    }
+    return pile;
+}
+
+TEST(ProofOfPlan, RandomShapes) {
+    const char* asked = std::getenv("HEW_RANDOM_PARTS");
+    const int count = asked != nullptr ? std::atoi(asked) : 4;
+    decomp::Rng rng(17);
+    for (int i = 0; i < count; ++i) {
+        const auto proof = proof_of(random_shape(rng));
+        EXPECT_TRUE(proof.passed()) << "shape " << i;
+        for (const auto& fault : proof.faults) {
+            ADD_FAILURE() << i << ": " << fault.code << " layer " << fault.layer << ": "
+                          << fault.text;
+        }
+    }
 }
 
 TEST(ProofOfPlan, AnArmOverTheBed) {
