@@ -257,7 +257,9 @@ void LevelExam::check_skin() {
     Bitmap inner(window_);
     for (const Section& section : sections_) {
         draw_outline(section, limits::kRingOuterMm + inset, scene_.pixel_mm, outer);
-        draw_outline(section, limits::kRingInnerMm + inset, scene_.pixel_mm, inner);
+        // Not deeper than needed: further in lie the gaps between walls.
+        draw_outline(section, std::max(limits::kRingInnerMm, limits::kRingOuterMm + inset + 0.1),
+                     scene_.pixel_mm, inner);
     }
     // What a disc of 0.2 mm radius inside the part can reach: sharper tips cannot be printed.
     const int radius = static_cast<int>(std::lround(0.2 / scene_.pixel_mm));
