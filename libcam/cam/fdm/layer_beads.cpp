@@ -34,6 +34,7 @@ constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not c
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
 constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
 constexpr double kFillOverlapRoundings = 1.5;
+constexpr double kSunkenFlow = 1.3;       // threads that hang from line to line sag and thin out
 constexpr double kCarryingDensity = 0.6;  // infill as dense as that carries a skin like a solid
 constexpr double kLeastInternalMm = 1.0;  // half the width of what sags over sparse infill
 constexpr double kLeastInternalMm2 = 20;
@@ -257,11 +258,13 @@ class LayerBeads {
         return polygon::offset(area, -fill_inset_mm());
     }
 
-    void add_fill(Feature feature, const Paths& area, const FillPattern& pattern) {
+    /// @param flow  plastic per plastic that fills the layer
+    void add_fill(Feature feature, const Paths& area, const FillPattern& pattern, double flow = 1) {
         const Paths room = fill_room(area);
         for (Line& line : fill_with_lines(room, pattern)) {
             IslandBeads& island = island_of(line.front());
-            island.fill.push_back(bead(feature, std::move(line)));
+            Bead& one = island.fill.emplace_back(bead(feature, std::move(line)));
+            one.width_mm += (flow - 1) * layer_.bead.spacing_mm();
         }
         const Paths scraps = polygon::subtract(area, polygon::offset(room, fill_inset_mm()));
         add_single_beads(feature, without_crumbs(scraps), layer_.bead.rounding_mm());
@@ -291,7 +294,7 @@ class LayerBeads {
         const FillPattern pattern{spacing, layer_angle(), kSolidLinkSpacings * spacing};
         const Paths sunken = over_infill();
         if (!sunken.empty()) {
-            add_fill(Feature::Bridge, sunken, pattern);
+            add_fill(Feature::Bridge, sunken, pattern, kSunkenFlow);
         }
         for (const auto& island :
              polygon::islands(polygon::subtract(layer_.interior.solid, sunken))) {

@@ -153,9 +153,15 @@ TriMesh random_shape(decomp::Rng& rng) {
     TriMesh pile;
     const auto blocks = 2 + rng.below(4);
     for (std::uint64_t k = 0; k < blocks; ++k) {
-        const Eigen::Vector3d low(rng.uniform(-15, 5), rng.uniform(-15, 5),
-                                  k == 0 || kind == 2 ? 0 : rng.uniform(0, 6));
-        const Eigen::Vector3d size(rng.uniform(1, 15), rng.uniform(1, 15), rng.uniform(2, 12));
+        // One by one: the order of a call's arguments is the compiler's own.
+        Eigen::Vector3d low;
+        Eigen::Vector3d size;
+        low.x() = rng.uniform(-15, 5);
+        low.y() = rng.uniform(-15, 5);
+        low.z() = k == 0 || kind == 2 ? 0 : rng.uniform(0, 6);
+        size.x() = rng.uniform(1, 15);
+        size.y() = rng.uniform(1, 15);
+        size.z() = rng.uniform(2, 12);
         pile = tests::joined(pile, box(low, low + size));
     }
     return pile;
