@@ -2,7 +2,6 @@
 #include "cam/job/step_files.h"
 
 #include "cam/job/maker_detail.h"
-#include "cam/orient/choose_build.h"
 #include "cam/render/render.h"
 #include "decomp/base/number.h"
 #include "decomp/brep/write_step.h"
@@ -50,15 +49,18 @@ bool is_sound(const WrittenPart& written, const decomp::mesh::TriMesh& mesh, dou
 }
 
 /// The least simple solid that is sound.
-Result<WrittenPart> write_part(const decomp::part::Part& part, const StepWish& wish,
-                               double tolerance_mm, decomp::brep::StepSchema schema,
-                               std::array<double, 3> colour, const Run& run) {
+Result<WrittenPart> write_part(const decomp::part::Part& part, const Eigen::Isometry3d& placed,
+                               const StepWish& wish, double tolerance_mm,
+                               decomp::brep::StepSchema schema, std::array<double, 3> colour,
+                               const Run& run) {
     for (const Detail detail : {Detail::Curved, Detail::Flat, Detail::CutsAlone}) {
         auto made = decomp::solid::make_solid(
             part, {.tolerance_mm = tolerance_mm, .detail = detail, .force = wish.many_faces}, run);
         if (!made) {
             return fail(made.error());
         }
+        // Recognised where the part came from, with its exact directions; then moved.
+        made->solid = decomp::solid::moved(std::move(made->solid), placed);
         auto file =
             decomp::brep::write_step({{part.id, made->solid, colour}}, part.id, schema, run);
         if (!file) {
@@ -125,8 +127,8 @@ Result<std::vector<FileBytes>> step_files(const std::filesystem::path& directory
         if (!part) {
             return fail(part.error());
         }
-        part->mesh = orient::placed(*part, facts.part_from_model);
-        auto written = write_part(*part, wish, tolerance_mm, *schema, colour_of(i), run);
+        auto written = write_part(*part, facts.part_from_model.map(), wish, tolerance_mm, *schema,
+                                  colour_of(i), run);
         if (!written) {
             return fail(written.error());
         }

@@ -7,6 +7,50 @@
 
 namespace decomp::solid {
 
+namespace {
+
+void move(Surface& surface, const Eigen::Isometry3d& motion) {
+    if (auto* plane = std::get_if<PlaneSurface>(&surface)) {
+        const Eigen::Vector3d on_it = motion * (plane->normal * plane->offset_mm);
+        plane->normal = motion.linear() * plane->normal;
+        plane->offset_mm = plane->normal.dot(on_it);
+    } else if (auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
+        cylinder->origin = motion * cylinder->origin;
+        cylinder->axis = motion.linear() * cylinder->axis;
+    } else {
+        auto& cone = std::get<ConeSurface>(surface);
+        cone.apex = motion * cone.apex;
+        cone.axis = motion.linear() * cone.axis;
+    }
+}
+
+void move(Curve& curve, const Eigen::Isometry3d& motion) {
+    if (auto* line = std::get_if<LineCurve>(&curve)) {
+        line->origin = motion * line->origin;
+        line->direction = motion.linear() * line->direction;
+    } else {
+        auto& ellipse = std::get<EllipseCurve>(curve);
+        ellipse.centre = motion * ellipse.centre;
+        ellipse.major = motion.linear() * ellipse.major;
+        ellipse.minor = motion.linear() * ellipse.minor;
+    }
+}
+
+}  // namespace
+
+Solid moved(Solid solid, const Eigen::Isometry3d& motion) {
+    for (Eigen::Vector3d& p : solid.vertices) {
+        p = motion * p;
+    }
+    for (Edge& edge : solid.edges) {
+        move(edge.curve, motion);
+    }
+    for (Face& face : solid.faces) {
+        move(face.surface, motion);
+    }
+    return solid;
+}
+
 Eigen::Vector3d point_at(const Curve& curve, double t) {
     if (const auto* line = std::get_if<LineCurve>(&curve)) {
         return line->origin + t * line->direction;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstdint>
 #include <variant>
@@ -82,6 +82,9 @@ struct Solid {
         cavity_of;               ///< for each shell: the shell that holds it; -1: an outer one
     double tolerance_mm = 1e-7;  ///< vertices lie on their surfaces within this
 };
+
+/// The solid moved rigidly.
+[[nodiscard]] Solid moved(Solid solid, const Eigen::Isometry3d& motion);
 
 [[nodiscard]] Eigen::Vector3d point_at(const Curve& curve, double t);
 
