@@ -56,6 +56,7 @@ Action declare_verify(CLI::App& app, const Common& common);
 Action declare_inspect(CLI::App& app, const Common& common);
 Action declare_machines(CLI::App& app, const Common& common);
 Action declare_render(CLI::App& app, const Common& common);
+Action declare_polycube(CLI::App& app, const Common& common);
 Action declare_demo(CLI::App& app, const Common& common);
 
 }  // namespace tools

@@ -24,6 +24,12 @@ const std::vector<Verb>& verbs() {
          "  hew export out/ --step\n"
          "  hew export out/ --step --step-tol 0.02mm --step-schema ap242",
          declare_export},
+        {"polycube", "From a shape to programs", "make the polycube of a shape, or check one",
+         "  hew polycube statue.stl -o pair/\n"
+         "  hew polycube statue.stl --target-parts 9 -o pair/\n"
+         "  hew polycube --check pair/\n"
+         "  hew polycube --check shape.mesh polycube.mesh",
+         declare_polycube},
         {"slice", "From a shape to programs",
          "write the program of one part of a job, or of a lone mesh",
          "  hew slice out/ --part P03\n"

@@ -54,13 +54,14 @@ class Untangler {
         const double size = x_.maxCoeff() - x_.minCoeff();
         double last = std::numeric_limits<double>::infinity();
         auto state = energy.determinants(x_);
-        for (int round = 0; round < options_.rounds && !run.cancelled(); ++round) {
+        int left = options_.budget;
+        for (int round = 0; round < options_.rounds && left > 0 && !run.cancelled(); ++round) {
             double eps = epsilon_of(state.least);
             if (round == 0 && fresh) {
                 eps = std::max(eps, kFirstEpsilon);
             }
             LbfgsOptions lbfgs;
-            lbfgs.iterations = options_.iterations;
+            lbfgs.iterations = std::min(options_.iterations, left);
             constexpr double kFirstStep = 1e-2;
             lbfgs.first_step = kFirstStep * size;
             const LbfgsResult result = minimise(
@@ -70,6 +71,7 @@ class Untangler {
                 },
                 lbfgs);
             iterations_ += result.iterations;
+            left -= result.iterations;
             state = energy.determinants(x_);
             const double gain = last - result.value;
             if ((state.flips == 0 && gain < kSettled * result.value) ||
@@ -237,14 +239,15 @@ Result<MapResult> map_to_polycube(const tets::TetMesh& tets, const mesh::TriMesh
     untangler.start();
     const Untangler started = untangler;
     std::size_t flips = untangler.untangle(run, true);
-    for (int attempt = 0; attempt < options.recoveries && flips > 0 && !run.cancelled();
+    for (int attempt = 0;
+         attempt < options.recoveries && flips > 0 && flips <= options.hopeless && !run.cancelled();
          ++attempt) {
         Untangler other = started;
         other.relax(1 + attempt);
-        const std::size_t left = other.untangle(run, false);
-        if (left < flips) {
+        const std::size_t others = other.untangle(run, false);
+        if (others < flips) {
             untangler = std::move(other);
-            flips = left;
+            flips = others;
         }
     }
     if (run.cancelled()) {

@@ -14,9 +14,11 @@ namespace decomp::map {
 
 struct MapOptions {
     int arap_rounds = 10;
-    int rounds = 24;       ///< of the untangling parameter, at most
-    int iterations = 200;  ///< of L-BFGS in each round, at most
-    int recoveries = 2;    ///< times that a map with flips is made again from a relaxed start
+    int rounds = 24;             ///< of the untangling parameter, at most
+    int iterations = 200;        ///< of L-BFGS in each round, at most
+    int budget = 1000;           ///< of L-BFGS iterations for one try
+    std::size_t hopeless = 100;  ///< flips that are left as they are, without recovery
+    int recoveries = 1;          ///< times that a map with flips is made again from a relaxed start
 };
 
 /// The tets of a shape and their place in the polycube. Charts are exactly flat: their points have
