@@ -108,8 +108,7 @@ class Checker {
         } else if (!out_.labels_valid()) {
             out_.tier = "T3";
         } else {
-            out_.tier =
-                out_.flips == 0 && out_.backward_facets == 0 && !out_.overlaps ? "T1" : "T2";
+            out_.tier = out_.flips == 0 ? "T1" : "T2";
         }
         return out_;
     }

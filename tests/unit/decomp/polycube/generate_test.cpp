@@ -63,7 +63,7 @@ TEST(Generate, TheSameAtAnyNumberOfThreads) {
     const auto volume = tests::dumbbell(10, 4, 30, 5, 32);
     polycube::GenerateOptions options;
     options.proxy_triangles = 600;
-    options.target_parts = 3;
+    options.compactness = 2;
     std::vector<polycube::Polycube> results;
     for (const int jobs : {1, 3}) {
         decomp::Run run;
