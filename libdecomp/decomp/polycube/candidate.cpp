@@ -125,7 +125,7 @@ Eigen::Matrix3d chosen_rotation(const mesh::TriMesh& surface) {
 }  // namespace
 
 bool is_perfect(const Figures& f) {
-    return f.valid_labels && f.turning_points == 0 && f.flips == 0 && f.folds == 0 &&
+    return f.valid_labels && f.turning_points == 0 && f.flips == 0 && f.folds <= kFewFolds &&
            f.fidelity >= kFaithful && f.fragment_share <= kFewFragments;
 }
 
