@@ -40,6 +40,7 @@ class LevelExam {
     }
 
     [[nodiscard]] double gap_at(double x, double y) const;
+    [[nodiscard]] double usual_step_mm() const;
     void measure_lies();
     [[nodiscard]] double usual_height(bool parts, double otherwise) const;
     void make_window();
@@ -90,6 +91,22 @@ double LevelExam::gap_at(double x, double y) const {
     return std::min(level_.z, kReachMm);
 }
 
+/// The step that most layers of parts have: the height of one that hangs over supports alone.
+double LevelExam::usual_step_mm() const {
+    std::vector<double> steps;
+    for (const Level& level : scene_.levels->levels) {
+        if (level.layer > 0) {
+            steps.push_back(level.step_part);
+        }
+    }
+    if (steps.empty()) {
+        return kReachMm;
+    }
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return std::min(*middle, kReachMm);
+}
+
 void LevelExam::measure_lies() {
     lies_.resize(level_.last - level_.first);
     for (std::uint32_t k = level_.first; k < level_.last; ++k) {
@@ -112,7 +129,7 @@ void LevelExam::measure_lies() {
         lie.height = touches > 0 ? touched / touches : 0;
         report_.part_mm3 += b.role == Role::Part ? b.volume_mm3 : 0;
     }
-    report_.height_mm = usual_height(true, std::min(level_.step_part, kReachMm));
+    report_.height_mm = usual_height(true, std::min(level_.step_part, usual_step_mm()));
     own_height_ = std::max(
         level_.layer >= 0 ? report_.height_mm : 0,
         usual_height(false, level_.layer >= 0 ? 0 : std::min(level_.step_other, kReachMm)));
