@@ -100,7 +100,11 @@ void row(const std::string& name, const decomp::mesh::TriMesh& mesh, const Optio
             name.c_str(), input.triangles.size(), proxy->surface.triangles.size(),
             proxy->wrapped ? 'w' : ' ', proxy->volume_share - 1, label.compactness, is.charts,
             is.corners, is.turning_points, is.invalid_charts, is.opposite_boundaries,
-            is.bad_corners, is.fidelity, is.valid() ? "valid" : "-----", made - start, to - from);
+            is.bad_corners, is.fidelity,
+            is.impossible ? "never"
+            : is.valid()  ? "valid"
+                          : "-----",
+            made - start, to - from);
         std::fflush(stdout);
         if (!options.labels_dir.empty()) {
             const std::string base = options.labels_dir + "/" + name;

@@ -4,6 +4,7 @@
 #include "decomp/base/assert.h"
 #include "decomp/labels/energy.h"
 #include "decomp/labels/layout.h"
+#include "decomp/labels/order.h"
 
 #include <algorithm>
 
@@ -23,6 +24,7 @@ LabelReport report(const mesh::TriMesh& surface, const Labeling& labels) {
                       [](const Chart& c) { return c.loops == 0 || c.deficiency > 0; }));
     out.opposite_boundaries = static_cast<int>(layout.opposite.size());
     out.bad_corners = static_cast<int>(layout.bad_corners.size());
+    out.impossible = impossible(*facets, layout);
     out.fidelity = fidelity(*facets, labels);
     return out;
 }

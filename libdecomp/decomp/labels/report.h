@@ -18,6 +18,10 @@ struct LabelReport {
     int bad_corners = 0;          ///< corners where more than three boundaries meet
     double fidelity = 0;  ///< mean of the normals' components along their labels: 1 on a polycube
 
+    /// Proved to belong to no polycube although locally valid, by the order of labels around
+    /// corners (a box inside out, for one). False proves nothing.
+    bool impossible = false;
+
     /// Locally valid: necessary for a polycube of these charts, and in practice nearly enough.
     [[nodiscard]] bool valid() const {
         return invalid_charts == 0 && opposite_boundaries == 0 && bad_corners == 0;

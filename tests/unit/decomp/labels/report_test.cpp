@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/labels/report.h"
 
+#include "decomp/base/rng.h"
+#include "decomp/mesh/check.h"
 #include "tests/support/lattice_shapes.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace {
 
@@ -102,6 +107,43 @@ TEST(LabelReport, ABoundaryThatTurnsBackHasATurningPoint) {
     const auto is = report(box.surface, box.labels);
     EXPECT_TRUE(is.valid());
     EXPECT_EQ(is.turning_points, 2);
+}
+
+TEST(LabelReport, NoRealPolycubeIsCalledImpossible) {
+    decomp::Rng rng(7);
+    int valid = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<tests::Cube> cubes{{0, 0, 0}};  // grows by neighbours at random
+        const auto size = 2 + rng.below(12);
+        while (cubes.size() < size) {
+            tests::Cube next = cubes[rng.below(cubes.size())];
+            next.at(rng.below(3)) += rng.below(2) == 0 ? 1 : -1;
+            if (std::find(cubes.begin(), cubes.end(), next) == cubes.end()) {
+                cubes.push_back(next);
+            }
+        }
+        const auto solid = tests::lattice_solid(cubes, 2);
+        if (!decomp::mesh::check_topology(solid.surface).manifold()) {
+            continue;
+        }
+        const auto is = report(solid.surface, solid.labels);
+        valid += is.valid() ? 1 : 0;
+        EXPECT_FALSE(is.impossible) << trial;
+    }
+    EXPECT_GT(valid, 50);
+}
+
+TEST(LabelReport, ABoxInsideOutAlongOneAxisIsValidEverywhereAndImpossible) {
+    for (const auto& cubes : {std::vector<tests::Cube>{{0, 0, 0}},
+                              std::vector<tests::Cube>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}) {
+        auto solid = tests::lattice_solid(cubes, 3);
+        for (auto& label : solid.labels) {
+            label = axis_of(label) == 2 ? opposite(label) : label;
+        }
+        const auto is = report(solid.surface, solid.labels);
+        EXPECT_TRUE(is.valid());
+        EXPECT_TRUE(is.impossible);
+    }
 }
 
 }  // namespace
