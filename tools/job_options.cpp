@@ -202,6 +202,11 @@ Action declare_job(CLI::App& app, const Common& /*common*/, cam::job::Extent ext
                    "polycube of the model: two files of tets, SHAPE POLYCUBE (Medit or VTK)")
         ->expected(2)
         ->group("Parts");
+    app.add_option("--sweep", request.options.sweep,
+                   "how far planes at concave edges of the polycube reach: local or global")
+        ->check(CLI::IsMember({"local", "global"}))
+        ->capture_default_str()
+        ->group("Parts");
     app.add_flag("--boxes", request.options.boxes,
                  "keep every box of the polycube as a part, also where fewer would do")
         ->group("Parts");

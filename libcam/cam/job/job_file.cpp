@@ -42,8 +42,12 @@ Json options_json(const JobOptions& options) {
     json["seed"] = options.seed;
     json["max_parts"] = options.max_parts;
     json["mode"] = options.mode;
+    json["sweep"] = options.sweep;
     json["boxes"] = options.boxes;
-    json["polycube"] = options.polycube;
+    json["polycube"] = Json::array();
+    for (const std::string& file : options.polycube) {
+        json["polycube"].push_back(std::filesystem::path(file).filename().string());
+    }
     json["max_size_mm"] = options.max_size_mm ? numbers(*options.max_size_mm) : Json(nullptr);
     json["settings"] = options.settings;
     if (options.step.wanted) {
@@ -76,6 +80,7 @@ JobOptions read_options(const Json& job) {
     options.seed = json.at("seed");
     options.max_parts = json.at("max_parts");
     options.mode = json.value("mode", options.mode);
+    options.sweep = json.value("sweep", options.sweep);
     options.boxes = json.value("boxes", false);
     options.polycube = json.value("polycube", options.polycube);
     if (json.contains("max_size_mm") && !json.at("max_size_mm").is_null()) {

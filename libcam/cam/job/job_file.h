@@ -45,6 +45,7 @@ struct JobOptions {
     std::uint64_t seed = 1;
     int max_parts = 200;
     std::string mode = "sheets";        ///< where the cuts come from: sheets, paper, sections
+    std::string sweep = "local";        ///< local, global
     bool boxes = false;                 ///< every box of the polycube stays a part
     std::vector<std::string> polycube;  ///< files of shape and polycube, tets; empty: made here
     std::optional<Eigen::Vector3d> max_size_mm;  ///< of a part as it stands, besides the chamber

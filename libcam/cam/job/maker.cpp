@@ -69,6 +69,7 @@ StageKey Maker::parts_key() const {
     key.add("model", stages_.hash_of("model.ply"))
         .add("max_parts", std::to_string(job_.options.max_parts))
         .add("mode", job_.options.mode)
+        .add("sweep", job_.options.sweep)
         .add("boxes", job_.options.boxes ? "kept" : "united")
         .add("seed", std::to_string(job_.options.seed));
     for (const std::string& hash : polycube_hashes_) {

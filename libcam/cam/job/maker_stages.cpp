@@ -183,6 +183,7 @@ Maker::Files Maker::make_parts(Run& run) {
         return fail(mode.error());
     }
     options.mode = *mode;
+    options.global_sweep = job_.options.sweep == "global";
     options.keep_boxes = job_.options.boxes;
     const auto map = imported_map();
     if (!map) {

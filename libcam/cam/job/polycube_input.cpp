@@ -3,10 +3,7 @@
 #include "cam/orient/choose_build.h"
 #include "decomp/io/read_tets.h"
 #include "decomp/map/quantise.h"
-#include "decomp/tets/measure.h"
 #include "decomp/tets/pair.h"
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <memory>
@@ -16,25 +13,6 @@ namespace cam::job {
 
 using decomp::fail;
 using decomp::Result;
-
-namespace {
-
-/// How the axes of a polycube made elsewhere lie in its shape: the rotation nearest to the mean
-/// derivative of the map.
-Eigen::Matrix3d rotation_of(const decomp::tets::Pair& pair) {
-    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < pair.tets.size(); ++i) {
-        const double volume = decomp::tets::six_volumes(pair.shape, pair.tets[i]);
-        const Eigen::Matrix3d jacobian = decomp::tets::jacobian(pair, i);
-        if (volume > 0 && jacobian.allFinite()) {
-            mean += volume * jacobian;
-        }
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(mean, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return svd.matrixU() * svd.matrixV().transpose();
-}
-
-}  // namespace
 
 profile::FdmMachine Maker::judged_machine() const {
     profile::FdmMachine machine = setup_.machine;
@@ -79,7 +57,6 @@ Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> Maker::imported_map
     decomp::pipeline::PolycubeMap map;
     map.pair = std::move(*pair);
     map.lattice = decomp::map::lattice_of(map.pair);
-    map.rotation = rotation_of(map.pair);
     map.tier = "imported";
     return std::make_shared<const decomp::pipeline::PolycubeMap>(std::move(map));
 }

@@ -4,6 +4,7 @@
 #include "decomp/partition/cuts.h"
 #include "decomp/partition/heal.h"
 #include "decomp/partition/votes.h"
+#include "decomp/sheets/paper.h"
 
 #include <algorithm>
 #include <array>
@@ -129,7 +130,9 @@ Result<Partition> partition(const mesh::TriMesh& volume, const tets::Pair& pair,
     if (!complex) {
         return fail(complex.error());
     }
-    const sheets::Sheets sheets = sheets::sheets_of(*cells, options.sheets);
+    const sheets::Sheets sheets = options.paper
+                                      ? sheets::paper_sheets(*cells, lattice, options.sheets)
+                                      : sheets::sheets_of(*cells, options.sheets);
     Result<Partition> out = attempt(*complex, *cells, sheets, options, run);
     for (const double factor : kOtherNudges) {
         if (!out || !options.check_rounded) {

@@ -18,6 +18,7 @@ namespace decomp::partition {
 struct PartitionOptions {
     cells::CellOptions cells;
     sheets::SheetOptions sheets;
+    bool paper = false;  ///< planes of sides flattened one after the other: see paper_sheets()
     double least_gain_share = 0.002;       ///< volume that a cut must put right
     double least_thickness_share = 0.015;  ///< of what a cut puts right, and of a part
     double nudge_share = 3e-5;             ///< of the diagonal: how planes keep off the vertices

@@ -56,14 +56,8 @@ BoxFacts facts_of(const partition::Partition& found) {
     for (const sheets::Sheet& sheet : found.sheets.sheets) {
         const sheets::SheetPlane& plane =
             found.sheets.planes[static_cast<std::size_t>(sheet.plane)];
-        out.sheets.push_back({plane.plane,
-                              sheet.axis,
-                              sheet.level,
-                              plane.snapped,
-                              sheet.area_mm2,
-                              sheet.residual.rms_mm,
-                              sheet.residual.max_mm,
-                              {}});
+        out.sheets.push_back({plane.plane, sheet.axis, sheet.level, plane.snapped, sheet.area_mm2,
+                              sheet.residual.rms_mm, sheet.residual.max_mm, sheet.corners});
     }
     return out;
 }
@@ -76,7 +70,8 @@ Result<Start> start_from_boxes(const mesh::TriMesh& volume, const DecomposeOptio
     partition::PartitionOptions how;
     how.nudge_share = nudge_share;
     how.check_rounded = false;
-    how.sheets.axes = map.rotation.transpose();
+    how.paper = options.mode == Mode::Paper;
+    how.sheets.sweep = options.global_sweep ? sheets::Sweep::Global : sheets::Sweep::Local;
     Result<partition::Partition> found =
         partition::partition(volume, map.pair, map.lattice, how, run);
     if (!found) {

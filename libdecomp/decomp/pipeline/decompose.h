@@ -33,9 +33,8 @@ enum class Mode {
 
 /// The polycube of a shape and where it comes from.
 struct PolycubeMap {
-    tets::Pair pair;                                         ///< shape in the model frame
-    tets::Lattice lattice;                                   ///< in polycube space
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< polycube axes = rotation * model
+    tets::Pair pair;          ///< shape in the model frame
+    tets::Lattice lattice;    ///< in polycube space
     std::string tier = "T2";  ///< what the map is worth: T1 valid, T2 with flips, T3 invalid labels
 };
 
@@ -49,8 +48,9 @@ struct DecomposeOptions {
         0.015;  ///< of the diagonal: volume / interface below it is a tongue, taken only in need
     bool merge = true;  ///< unite neighbours afterwards where the judge allows
     Mode mode = Mode::Sheets;
-    bool keep_boxes = false;  ///< every box of the polycube stays a part, also where the judge
-                              ///< would take several as one
+    bool global_sweep = false;  ///< planes sweep through the whole polycube, not one face of it
+    bool keep_boxes = false;    ///< every box of the polycube stays a part, also where the judge
+                                ///< would take several as one
     std::shared_ptr<const PolycubeMap> map;  ///< null: the cuts come from the cross-sections
     double most_mislabeled = 0.1;            ///< share of the map's votes; a worse map is not used
 };

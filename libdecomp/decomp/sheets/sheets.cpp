@@ -2,6 +2,8 @@
 #include "decomp/sheets/sheets.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,8 @@
 namespace decomp::sheets {
 
 namespace {
+
+constexpr double kHardlyTurned = 0.0873;  // radians: 5 degrees
 
 using CellPair = std::pair<std::int32_t, std::int32_t>;
 
@@ -33,7 +37,10 @@ void add_once(std::vector<std::int32_t>& values, std::int32_t value) {
 class Builder {
   public:
     Builder(const cells::CellComplex& cells, const SheetOptions& options)
-        : cells_(cells), options_(options), boxes_(sweep(cells, options.sweep)) {
+        : cells_(cells),
+          options_(options),
+          axes_(options.axes ? *options.axes : axes_of(cells)),
+          boxes_(sweep(cells, options.sweep)) {
         Eigen::AlignedBox3d bounds;
         for (const cells::SubTet& tet : cells.tets) {
             for (const std::uint32_t corner : tet.corners) {
@@ -64,9 +71,7 @@ class Builder {
     }
 
   private:
-    [[nodiscard]] Eigen::Vector3d axis(const Sheet& sheet) const {
-        return options_.axes.col(sheet.axis);
-    }
+    [[nodiscard]] Eigen::Vector3d axis(const Sheet& sheet) const { return axes_.col(sheet.axis); }
 
     [[nodiscard]] std::int32_t box(std::int32_t cell) const {
         return boxes_.box_of_cell[static_cast<std::size_t>(cell)];
@@ -194,6 +199,7 @@ class Builder {
 
     const cells::CellComplex& cells_;
     const SheetOptions& options_;
+    Eigen::Matrix3d axes_;
     Boxes boxes_;
     Sheets out_;
     std::vector<std::int32_t> floods_;  // of each sheet
@@ -201,6 +207,27 @@ class Builder {
 };
 
 }  // namespace
+
+Eigen::Matrix3d axes_of(const cells::CellComplex& cells) {
+    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+    for (const cells::SubTet& tet : cells.tets) {
+        Eigen::Matrix3d shape;
+        Eigen::Matrix3d polycube;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t corner = tet.corners.at(static_cast<std::size_t>(k) + 1);
+            shape.col(k) = cells.shape[corner] - cells.shape[tet.corners[0]];
+            polycube.col(k) = cells.polycube[corner] - cells.polycube[tet.corners[0]];
+        }
+        const Eigen::FullPivLU<Eigen::Matrix3d> solver(shape);
+        if (!tet.flipped && solver.isInvertible()) {
+            mean += tet.volume_mm3 * polycube * solver.inverse();
+        }
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(mean, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Matrix3d turn = svd.matrixV() * svd.matrixU().transpose();
+    return Eigen::AngleAxisd(turn).angle() < kHardlyTurned ? Eigen::Matrix3d::Identity().eval()
+                                                           : turn;
+}
 
 Sheets sheets_of(const cells::CellComplex& cells, const SheetOptions& options) {
     return Builder(cells, options).build();

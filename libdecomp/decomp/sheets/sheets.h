@@ -23,7 +23,8 @@ struct SheetOptions {
     double snap_angle = 0.0873;      ///< radians from a lattice axis within which planes snap to it
     double snap_rms_share = 0.002;   ///< what each sheet may lose by that
     double most_tilt = 0.8727;  ///< radians: a plane tilted farther off its axis takes the axis
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: lattice axes, model frame
+    std::optional<Eigen::Matrix3d> axes =
+        std::nullopt;  ///< columns: lattice axes in the model frame; none: axes_of()
 };
 
 /// A maximal set of marked faces of one lattice plane that hang together, or the part of it between
@@ -37,6 +38,7 @@ struct Sheet {
     double area_mm2 = 0;
     Residual residual;  ///< from its plane
     std::vector<Sample> samples;
+    std::vector<Eigen::Vector3d> corners;  ///< paper_sheets(): the four corners of the side
 };
 
 struct SheetPlane {
@@ -54,6 +56,10 @@ struct Sheets {
     std::vector<SheetPlane> planes;
     double diagonal_mm = 0;  ///< of the bounds of the pair's shape
 };
+
+/// How the axes of polycube space lie in the shape: columns, the rotation nearest to the mean
+/// derivative of the map over unflipped tets, or the identity if that turns by less than 5 degrees.
+[[nodiscard]] Eigen::Matrix3d axes_of(const cells::CellComplex& cells);
 
 /// The boxes of the polycube, the sheets between them and their planes.
 /// Cost O(pieces of sheets), about 10 ms for 20 sheets.

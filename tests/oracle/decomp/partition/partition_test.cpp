@@ -71,6 +71,7 @@ TEST(PartitionOracle, RandomHeapsOfVoxelsAreCutIntoSoundParts) {
         for (const bool limit : {true, false}) {
             decomp::partition::PartitionOptions options;
             options.limit_cuts = limit;
+            options.paper = limit && trial % 3 == 0;
             const Sample s = tests::partitioned(map.surface, map.pair, map.lattice, options);
             EXPECT_TRUE(faults_of(s.assembly, s.shape, {.points = 150}).empty())
                 << "trial " << trial << " limited " << limit;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/sheets/sheets.h"
 
+#include "decomp/sheets/paper.h"
 #include "tests/support/pairs.h"
 
 #include <Eigen/Geometry>
@@ -119,6 +120,73 @@ TEST(Sheets, TwoStepsOfDifferentHeightDoNotShareAPlane) {
     ASSERT_EQ(heights.size(), 2U);
     EXPECT_NEAR(heights[0], 10, 1e-6);
     EXPECT_NEAR(heights[1], 15, 1e-6);
+}
+
+TEST(PaperSheets, CornersOfASideAreMappedBackThroughTheTets) {
+    const auto made = voxel_pair(kEll, 10, 2, [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        return {p.x() + 0.3 * p.z(), p.y(), p.z()};
+    });
+    const auto complex = decomp::cells::cells_of(made.pair, made.lattice, {});
+    ASSERT_TRUE(complex.has_value());
+    const Sheets found = decomp::sheets::paper_sheets(*complex, made.lattice, {});
+    ASSERT_EQ(found.boxes.size(), 3U);
+    ASSERT_EQ(found.sheets.size(), 2U);
+    ASSERT_EQ(found.planes.size(), 2U);
+    for (const auto& sheet : found.sheets) {
+        ASSERT_EQ(sheet.corners.size(), 4U);
+        EXPECT_LT(sheet.residual.max_mm, 1e-9);
+        if (sheet.axis == 0) {
+            const auto& plane = found.planes[static_cast<std::size_t>(sheet.plane)].plane;
+            EXPECT_TRUE(plane.normal.isApprox(Eigen::Vector3d(1, 0, -0.3).normalized(), 1e-9));
+            for (const Eigen::Vector3d& corner : sheet.corners) {
+                EXPECT_NEAR(corner.x() - 0.3 * corner.z(), 10, 1e-9);
+            }
+        }
+    }
+}
+
+TEST(PaperSheets, ATwistedSideIsFlattenedAndItsNeighbourTurnsAboutTheCommonEdge) {
+    // The common edge of both sides of the L is the pivot: its corners lie on both planes.
+    const auto made = voxel_pair(kEll, 10, 3, [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        return {p.x() + 0.008 * p.y() * p.z(), p.y() + 0.004 * p.x() * p.z(), p.z()};
+    });
+    const auto complex = decomp::cells::cells_of(made.pair, made.lattice, {});
+    ASSERT_TRUE(complex.has_value());
+    const Sheets found = decomp::sheets::paper_sheets(*complex, made.lattice, {});
+    ASSERT_EQ(found.sheets.size(), 2U);
+    int shared = 0;
+    for (const Eigen::Vector3d& a : found.sheets[0].corners) {
+        for (const Eigen::Vector3d& b : found.sheets[1].corners) {
+            shared += a == b ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(shared, 2);
+    for (const auto& sheet : found.sheets) {
+        EXPECT_LT(sheet.residual.max_mm, 1e-9);
+    }
+}
+
+TEST(PaperSheets, ACrossingOfFourSidesKeepsAStatedResidual) {
+    // The middle of two by two by two boxes has twelve sides; not all can be flat and meet.
+    std::vector<Voxel> cross;
+    for (int i = 0; i < 27; ++i) {
+        const Voxel v{i / 9, i / 3 % 3, i % 3};
+        if ((v[0] != 1 ? 1 : 0) + (v[1] != 1 ? 1 : 0) + (v[2] != 1 ? 1 : 0) < 3) {
+            cross.push_back(v);
+        }
+    }
+    const auto made = voxel_pair(cross, 10, 1, [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        return {p.x() + 0.4 * std::sin(p.y() / 3), p.y() + 0.4 * std::sin(p.z() / 4),
+                p.z() + 0.4 * std::sin(p.x() / 5)};
+    });
+    const auto complex = decomp::cells::cells_of(made.pair, made.lattice, {});
+    ASSERT_TRUE(complex.has_value());
+    const Sheets found = decomp::sheets::paper_sheets(*complex, made.lattice, {});
+    EXPECT_EQ(found.boxes.size(), cross.size());
+    for (const auto& sheet : found.sheets) {
+        EXPECT_GE(sheet.plane, 0);
+        EXPECT_LT(sheet.residual.max_mm, 0.05 * found.diagonal_mm);
+    }
 }
 
 TEST(Sheets, APlaneOfThePolycubeIsMappedIntoItsBoxes) {
