@@ -133,7 +133,7 @@ Action declare_render(CLI::App& app, const Common& /*common*/) {
     app.add_option("input", command->mesh.path, "a job directory, or a mesh")->required();
     app.add_option("-o,--out", command->out, "PNG to write")->required();
     app.add_option("--view", command->view, "where the viewer stands")
-        ->check(CLI::IsMember({"iso", "front", "back", "left", "right", "top", "bottom"}))
+        ->check(CLI::IsMember({"iso", "under", "front", "back", "left", "right", "top", "bottom"}))
         ->capture_default_str();
     app.add_option("--explode", command->explode, "how far the parts of a job move apart")
         ->check(CLI::Range(0.0, 5.0))

@@ -54,6 +54,7 @@ Action declare_export(CLI::App& app, const Common& common);
 Action declare_slice(CLI::App& app, const Common& common);
 Action declare_verify(CLI::App& app, const Common& common);
 Action declare_inspect(CLI::App& app, const Common& common);
+Action declare_check(CLI::App& app, const Common& common);
 Action declare_machines(CLI::App& app, const Common& common);
 Action declare_render(CLI::App& app, const Common& common);
 Action declare_polycube(CLI::App& app, const Common& common);

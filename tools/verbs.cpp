@@ -44,6 +44,13 @@ const std::vector<Verb>& verbs() {
          "  hew inspect statue.stl\n"
          "  hew inspect statue.obj --unit cm --json",
          declare_inspect},
+        {"check", "Looking", "say whether parts can be made by a process, how best, and why not",
+         "  hew check out/ --process fdm --machine prusa-mk3s\n"
+         "  hew check bust.stl --process fdm -o pictures/\n"
+         "  hew check out/ --process mill3 --machine genmitsu-3018 --setups 2\n"
+         "  hew check bust.stl --process mill4 --tool ball-3 --tool ball-6 -o pictures/\n"
+         "  hew check bust.stl --process mill4 --axis 0,0,1 --drop-unreachable millable/",
+         declare_check},
         {"render", "Looking", "draw a mesh, the parts of a job, or the layers of a part",
          "  hew render statue.stl -o statue.png\n"
          "  hew render out/ -o parts.png --explode 0.3 --view iso",

@@ -17,8 +17,8 @@ std::set<std::string> options_in(const std::string& text) {
     return out;
 }
 
-const std::vector<std::string> kVerbs{"make",   "decompose", "slice", "verify",  "inspect",
-                                      "render", "machines",  "demo",  "polycube"};
+const std::vector<std::string> kVerbs{"make",   "decompose", "slice", "verify",   "inspect",
+                                      "render", "machines",  "demo",  "polycube", "check"};
 
 TEST(Help, EveryVerbHasHelpWithExamples) {
     const std::string overview = hew({"--help"}).out;

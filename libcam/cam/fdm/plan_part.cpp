@@ -32,7 +32,6 @@ constexpr double kSliced = 0.15;
 constexpr double kWalled = 0.35;
 constexpr double kSkinned = 0.55;
 constexpr double kSupported = 0.75;
-constexpr double kLongestFreeBridgeMm = 12;  // longer bridges sag and get support
 
 /// Heights of the layers of a part that reaches up to `height_mm`: those whose middle is below it.
 std::vector<PartLayer> empty_layers(double height_mm, const Process& process) {
@@ -148,7 +147,7 @@ Paths carried_by_bridges(const PartLayer& layer, const Process& process) {
     const double walls = process.perimeters * layer.bead.width_mm + kSlackMm;
     Paths out;
     for (const BridgeArea& bridge : layer.interior.bridges) {
-        if (bridge.rests && bridge.span_mm <= kLongestFreeBridgeMm) {
+        if (bridge.rests && bridge.span_mm <= process.longest_bridge_mm) {
             out = polygon::unite(out, polygon::offset(bridge.air, walls));
         }
     }

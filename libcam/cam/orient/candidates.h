@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// Inside the room: what a part could stand on.
+/// What a part could stand on.
 namespace cam::orient {
 
 /// A plane that touches the part's hull from below when `down` points to the plate.

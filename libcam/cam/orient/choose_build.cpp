@@ -3,6 +3,8 @@
 
 #include "cam/orient/candidates.h"
 #include "cam/orient/footprint.h"
+#include "cam/orient/overhang.h"
+#include "decomp/mesh/facets.h"
 #include "decomp/mesh/measure.h"
 #include "decomp/mesh/moments.h"
 
@@ -32,7 +34,6 @@ using decomp::part::Plane;
 using decomp::part::Verdict;
 using decomp::part::Violation;
 
-constexpr double kOnPlate = 0.02;       // mm: facets this low lie on the plate
 constexpr double kLevel = 0.9999;       // cosine: facets this level belong to a base
 constexpr double kSameSupport = 1e-6;   // of the surface
 constexpr double kExactlyFull = 1e-12;  // relative room for rounding
@@ -44,10 +45,8 @@ constexpr std::array<const char*, 3> kConstraints{"chamber.x", "chamber.y", "cha
 /// What all poses of one part share.
 struct Surface {
     const TriMesh* mesh = nullptr;
-    std::vector<std::uint32_t> used;    // points of triangles
-    std::vector<Eigen::Vector3d> unit;  // facet normals
-    std::vector<double> area;           // of facets
-    double total_area = 0;
+    std::vector<std::uint32_t> used;  // points of triangles
+    decomp::mesh::Facets facets;
     Eigen::Vector3d centre_of_mass = Eigen::Vector3d::Zero();
 };
 
@@ -55,15 +54,9 @@ Surface surface_of(const TriMesh& mesh) {
     Surface out;
     out.mesh = &mesh;
     std::vector<bool> is_used(mesh.points.size(), false);
-    out.unit.resize(mesh.triangles.size());
-    out.area.resize(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Eigen::Vector3d normal = decomp::mesh::double_area_normal(mesh, i);
-        const double length = normal.norm();
-        out.unit[i] = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero();
-        out.area[i] = length / 2;
-        out.total_area += out.area[i];
-        for (const std::uint32_t v : mesh.triangles[i]) {
+    out.facets = decomp::mesh::measure_facets(mesh);
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) {
             is_used[v] = true;
         }
     }
@@ -113,22 +106,6 @@ std::vector<Violation> violations_of(const Eigen::Vector3d& size, const Eigen::V
     return out;
 }
 
-/// Area that faces down flatter than the support angle, above the base.
-double support_area(const Surface& surface, const std::vector<Eigen::Vector3d>& points,
-                    const Eigen::Vector3d& down, double support_angle) {
-    const double limit = std::cos(support_angle);
-    double area = 0;
-    for (std::size_t i = 0; i < surface.unit.size(); ++i) {
-        if (surface.unit[i].dot(down) > limit) {
-            const Triangle& t = surface.mesh->triangles[i];
-            if (std::max({points[t[0]].z(), points[t[1]].z(), points[t[2]].z()}) > kOnPlate) {
-                area += surface.area[i];
-            }
-        }
-    }
-    return area;
-}
-
 BuildChoice build_on(const Surface& surface, const Stand& stand,
                      const profile::FdmMachine& machine) {
     BuildChoice choice;
@@ -150,7 +127,7 @@ BuildChoice build_on(const Surface& surface, const Stand& stand,
     for (const std::uint32_t v : surface.used) {
         points[v].z() -= floor;
         shadow.emplace_back(points[v].head<2>());
-        if (points[v].z() <= kOnPlate) {
+        if (points[v].z() <= kOnPlateMm) {
             contact.emplace_back(points[v].head<2>());
         }
     }
@@ -162,15 +139,10 @@ BuildChoice build_on(const Surface& surface, const Stand& stand,
     choice.size_mm = {turned.size.x(), turned.size.y(), top - floor};
     choice.violations = violations_of(choice.size_mm, usable);
     choice.stable = holds(base_hull, (standing * surface.centre_of_mass).head<2>());
-    choice.support_area_mm2 =
-        support_area(surface, points, stand.down, machine.process.support_angle.radians());
-    for (std::size_t i = 0; i < surface.unit.size(); ++i) {
-        const Triangle& t = surface.mesh->triangles[i];
-        if (surface.unit[i].dot(stand.down) > kLevel && points[t[0]].z() <= kOnPlate &&
-            points[t[1]].z() <= kOnPlate && points[t[2]].z() <= kOnPlate) {
-            choice.base_mm2 += surface.area[i];
-        }
-    }
+    const Overhang overhang =
+        find_overhang(*surface.mesh, surface.facets, stand.down, machine.process.support_angle);
+    choice.support_area_mm2 = overhang.overhang_mm2;
+    choice.base_mm2 = overhang.base_mm2;
     Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
     map.linear() = turn_about_z(turned.angle) * standing;
     Eigen::AlignedBox3d box;
@@ -222,8 +194,8 @@ bool better(const BuildChoice& a, const BuildChoice& b, double same_support) {
     if (support_a != support_b) {
         return support_a < support_b;
     }
-    const double height_a = std::round(a.size_mm.z() / kOnPlate);
-    const double height_b = std::round(b.size_mm.z() / kOnPlate);
+    const double height_a = std::round(a.size_mm.z() / kOnPlateMm);
+    const double height_b = std::round(b.size_mm.z() / kOnPlateMm);
     if (height_a != height_b) {
         return height_a < height_b;
     }
@@ -271,7 +243,7 @@ std::vector<BuildChoice> ranked(const Part& part, const profile::FdmMachine& mac
     for (const Stand& stand : stands(part, flats)) {
         choices.push_back(build_on(surface, stand, machine));
     }
-    const double same_support = kSameSupport * surface.total_area;
+    const double same_support = kSameSupport * surface.facets.total_mm2;
     std::stable_sort(
         choices.begin(), choices.end(),
         [&](const BuildChoice& a, const BuildChoice& b) { return better(a, b, same_support); });
@@ -314,7 +286,7 @@ TriMesh placed(const Part& part, const Pose<PartBedFrame, ModelFrame>& pose) {
         const Triangle& t = out.triangles[i];
         const Eigen::Vector3d normal = decomp::mesh::double_area_normal(out, i);
         const bool low = std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
-            return std::abs(out.points[v].z()) <= kOnPlate;
+            return std::abs(out.points[v].z()) <= kOnPlateMm;
         });
         if (low && -normal.z() > kLevel * normal.norm()) {
             for (const std::uint32_t v : t) {

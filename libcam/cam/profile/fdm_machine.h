@@ -95,7 +95,8 @@ struct FdmMachine {
         int support_interface_layers = 3;  ///< dense layers under the part
         double support_gap_z_layers = 1;   ///< free layers between support and part
         double support_gap_xy_mm = 0.6;
-        double brim_width_mm = 0;  ///< brim when > 0, else skirt
+        double longest_bridge_mm = 12;  ///< longer ways over air sag and get support
+        double brim_width_mm = 0;       ///< brim when > 0, else skirt
         int skirt_loops = 2;
         double skirt_distance_mm = 3;
         decomp::Speed outer_wall_speed = decomp::Speed::mm_per_s(30);

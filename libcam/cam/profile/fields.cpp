@@ -164,6 +164,8 @@ const Table<FdmMachine::Process>& process_rows() {
          "left free between support and part"},
         {"support_gap_xy_mm", &P::support_gap_xy_mm, "mm", 0, 10, kOptional,
          "left free between support and walls"},
+        {"longest_bridge_mm", &P::longest_bridge_mm, "mm", 0, 200, kOptional,
+         "longer ways over air sag and get support"},
         {"brim_width_mm", &P::brim_width_mm, "mm", 0, 50, kOptional,
          "brim around the first layer of each part against warping, 5 is usual; 0: a skirt "
          "instead"},

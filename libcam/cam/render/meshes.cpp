@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/render/lettering_detail.h"
 #include "cam/render/shading_detail.h"
 #include "decomp/base/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace cam::render {
 
@@ -106,6 +108,13 @@ class Picture {
 
     [[nodiscard]] int sample_rows() const { return rows_; }
 
+    /// How far from the camera the surface is that a pixel shows, in units of the radius; infinite
+    /// for the background.
+    [[nodiscard]] float depth(int column, int row) const {
+        const Sample& s = sample(kSide * column, kSide * row);
+        return s.item < 0 ? std::numeric_limits<float>::infinity() : s.distance;
+    }
+
   private:
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
@@ -137,7 +146,8 @@ class Picture {
                 .stableNormalized();
         const bool marked = hit.triangle < item.highlighted_triangles.size() &&
                             item.highlighted_triangles[hit.triangle];
-        return {hit.item, hit.distance, facing(smooth), facing(flat.cast<float>()), marked};
+        return {hit.item, hit.distance, facing(smooth), facing(flat.cast<float>()),
+                marked,   hit.triangle};
     }
 
     [[nodiscard]] Vector3f sky_origin(const Sample& s, int x, int y, double step) const {
@@ -199,7 +209,9 @@ class Picture {
         if (s.item < 0) {
             return options_.background;
         }
-        Rgb colour = items_[static_cast<std::size_t>(s.item)].colour;
+        const Item& item = items_[static_cast<std::size_t>(s.item)];
+        Rgb colour = s.triangle < item.triangle_colours.size() ? item.triangle_colours[s.triangle]
+                                                               : item.colour;
         if (s.highlighted) {
             colour = mixed(colour, kCutFace, kCutFaceTint);
         }
@@ -224,15 +236,85 @@ class Picture {
 
 }  // namespace
 
+namespace {
+
+/// Where the items of a picture lie in it.
+struct Placing {
+    const Camera& viewer;
+    Eigen::Vector3d centre;
+    double radius_mm;
+    double px_per_mm;
+};
+
+void put_dot(Image& image, int x, int y, int reach, Rgb colour) {
+    for (int j = std::max(0, y - reach); j <= std::min(image.height_px - 1, y + reach); ++j) {
+        for (int i = std::max(0, x - reach); i <= std::min(image.width_px - 1, x + reach); ++i) {
+            image.at(i, j) = colour;
+        }
+    }
+}
+
+void draw_stroke(Image& image, const Picture& picture, const Stroke& stroke,
+                 const Placing& placing) {
+    constexpr int kDotPx = 8;           // length of a dot and of a gap
+    constexpr float kInFront = 0.004F;  // of the radius: a line on the surface is in front
+    const double length_px = (stroke.to - stroke.from).norm() * placing.px_per_mm;
+    const int steps = std::max(1, static_cast<int>(std::ceil(2 * length_px)));
+    const int reach = static_cast<int>(stroke.width_px / 2);
+    for (int i = 0; i <= steps; ++i) {
+        const Eigen::Vector3d at = stroke.from +
+                                   (stroke.to - stroke.from) * (static_cast<double>(i) / steps) -
+                                   placing.centre;
+        const int x = static_cast<int>(
+            std::floor(image.width_px / 2.0 + at.dot(placing.viewer.right) * placing.px_per_mm));
+        const int y = static_cast<int>(
+            std::floor(image.height_px / 2.0 - at.dot(placing.viewer.up) * placing.px_per_mm));
+        if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) {
+            continue;
+        }
+        const auto distance = static_cast<float>(
+            double{kViewerDistance} - at.dot(placing.viewer.toward_viewer) / placing.radius_mm);
+        const bool hidden = distance > picture.depth(x, y) + kInFront;
+        if (!hidden || (i / 2 / kDotPx) % 2 == 0) {
+            put_dot(image, x, y, hidden ? std::max(0, reach - 1) : reach, stroke.colour);
+        }
+    }
+}
+
+void draw_legend(Image& image, const std::vector<Legend>& legend) {
+    constexpr int kLetterDots = 2;
+    constexpr int kRowPx = 10 * kLetterDots;
+    constexpr int kLeftPx = 12;
+    int top = image.height_px - kRowPx * static_cast<int>(legend.size()) - kLeftPx / 2;
+    for (const Legend& row : legend) {
+        const int half = kLetterHeightPx * kLetterDots / 2;
+        put_dot(image, kLeftPx + half, top + half, half, row.colour);
+        write(image, row.text,
+              {.left_px = kLeftPx + 3 * half,
+               .top_px = top,
+               .size = kLetterDots,
+               .colour = {40, 40, 40}});
+        top += kRowPx;
+    }
+}
+
+}  // namespace
+
 decomp::Result<std::string> render_meshes_png(const std::vector<Item>& items,
                                               const ViewOptions& options, decomp::Run& run) {
     if (const auto size = check_size(options.width_px, options.height_px); !size) {
         return decomp::fail(size.error());
     }
     const Camera viewer = camera(options.view);
-    const Eigen::AlignedBox3d box = bounds_seen(items, viewer);
+    Eigen::AlignedBox3d box = bounds_seen(items, viewer);
     if (box.isEmpty()) {
         return decomp::fail("render.empty", "there is nothing to draw: no item has a triangle");
+    }
+    for (const Stroke& stroke : options.strokes) {
+        for (const Eigen::Vector3d& end : {stroke.from, stroke.to}) {
+            box.extend(Eigen::Vector3d(end.dot(viewer.right), end.dot(viewer.up),
+                                       end.dot(viewer.toward_viewer)));
+        }
     }
     const Eigen::Vector3d seen = box.center();
     const Eigen::Vector3d centre =
@@ -261,6 +343,11 @@ decomp::Result<std::string> render_meshes_png(const std::vector<Item>& items,
     if (run.cancelled()) {
         return decomp::cancelled();
     }
+    const Placing placing{viewer, centre, radius_mm, fitted_scale_px_per_mm(box, options)};
+    for (const Stroke& stroke : options.strokes) {
+        draw_stroke(image, picture, stroke, placing);
+    }
+    draw_legend(image, options.legend);
     return png_bytes(image);
 }
 

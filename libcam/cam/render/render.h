@@ -18,11 +18,26 @@
 namespace cam::render {
 
 /// Where the viewer stands. Front looks along +Y with Z up; Top looks down with Y up; Iso stands at
-/// the front, to the right and above.
-enum class View { Iso, Front, Back, Left, Right, Top, Bottom };
+/// the front, to the right and above; Under the same from below.
+enum class View { Iso, Under, Front, Back, Left, Right, Top, Bottom };
 
 /// The view of that name, lower case. @error render.view
 [[nodiscard]] decomp::Result<View> view_named(std::string_view name);
+
+/// A straight line drawn into a picture: solid where nothing is in front of it, dotted where
+/// something is.
+struct Stroke {
+    Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< mm, frame of the items
+    Eigen::Vector3d to = Eigen::Vector3d::Zero();
+    Rgb colour;
+    double width_px = 3;
+};
+
+/// A line of text with a patch of colour before it, in the picture's lower left corner.
+struct Legend {
+    Rgb colour;
+    std::string text;  ///< capitals, digits and "-.:/ "
+};
 
 struct ViewOptions {
     View view = View::Iso;
@@ -32,6 +47,8 @@ struct ViewOptions {
     Rgb background{255, 255, 255};
     bool edges = true;      ///< silhouettes and creases are drawn
     bool occlusion = true;  ///< hollows are darker
+    std::vector<Stroke> strokes{};
+    std::vector<Legend> legend{};
 };
 
 /// One mesh in a picture.
@@ -40,6 +57,7 @@ struct Item {
     Rgb colour{150, 170, 200};
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< mm, added to every point
     std::vector<bool> highlighted_triangles;           ///< tinted; empty: none
+    std::vector<Rgb> triangle_colours{};               ///< instead of `colour`; empty: none
 };
 
 /// A colour for part number `index`, well apart from that of its neighbours in number.

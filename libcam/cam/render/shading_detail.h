@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <vector>
 
 namespace cam::render {
@@ -23,6 +24,7 @@ struct Sample {
     Eigen::Vector3f flat_normal =
         Eigen::Vector3f::Zero();  ///< of the triangle, turned to the viewer
     bool highlighted = false;
+    std::uint32_t triangle = 0;
 };
 
 /// Fraction of light, 0 ... 1, that reaches a surface with this normal from lamps that move with

@@ -14,7 +14,8 @@ constexpr int kLeastSidePx = 16;
 constexpr int kGreatestSidePx = 8192;
 constexpr double kLeastExtentMm = 1e-6;  // a flat item seen edge-on still has a scale
 
-constexpr std::array<std::pair<std::string_view, View>, 7> kViews = {{{"iso", View::Iso},
+constexpr std::array<std::pair<std::string_view, View>, 8> kViews = {{{"iso", View::Iso},
+                                                                      {"under", View::Under},
                                                                       {"front", View::Front},
                                                                       {"back", View::Back},
                                                                       {"left", View::Left},
@@ -37,7 +38,7 @@ decomp::Result<View> view_named(std::string_view name) {
         }
     }
     return decomp::fail("render.view", "there is no view '" + std::string(name) + "'", {},
-                        "views are iso, front, back, left, right, top and bottom");
+                        "views are iso, under, front, back, left, right, top and bottom");
 }
 
 Camera camera(View view) {
@@ -45,6 +46,8 @@ Camera camera(View view) {
     switch (view) {
         case View::Iso:
             return looking_from({0.62, -1.0, 0.62}, z);
+        case View::Under:
+            return looking_from({0.62, -1.0, -0.62}, z);
         case View::Front:
             return looking_from({0, -1, 0}, z);
         case View::Back:

@@ -13,6 +13,9 @@ struct ModelFrame {};  ///< the input shape after units, --up and --height; ever
 struct PartBedFrame {
 };  ///< one part as it is printed: base at z = 0, bounding box centred on x = y = 0
 
+struct SetupFrame {
+};  ///< one part as it is clamped to turn: rotary axis through the origin along X, Z up at A = 0
+
 struct BedFrame {};  ///< one plate: the machine's own coordinates, z = 0 on the plate
 
 /// A rigid motion that carries points of From into To. `Pose<A, B> * Pose<B, C>` composes; other

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/io/write_mesh.h"
 
+#include "decomp/base/assert.h"
 #include "decomp/base/number.h"
 #include "decomp/io/byte_writer.h"
 
@@ -34,22 +35,32 @@ std::string stl_bytes(const mesh::TriMesh& mesh) {
     return out;
 }
 
-std::string ply_bytes(const mesh::TriMesh& mesh) {
+std::string ply_bytes(const mesh::TriMesh& mesh) { return ply_bytes(mesh, {}); }
+
+std::string ply_bytes(const mesh::TriMesh& mesh,
+                      const std::vector<std::array<std::uint8_t, 3>>& face_colours) {
+    const bool coloured = !face_colours.empty();
+    DECOMP_ASSERT(!coloured || face_colours.size() == mesh.triangles.size());
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment unit mm\nelement vertex " +
                       std::to_string(mesh.points.size()) +
                       "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
                       std::to_string(mesh.triangles.size()) +
-                      "\nproperty list uchar int vertex_indices\nend_header\n";
-    out.reserve(out.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size());
+                      "\nproperty list uchar int vertex_indices\n";
+    out += coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "";
+    out += "end_header\n";
+    out.reserve(out.size() + 24 * mesh.points.size() + 16 * mesh.triangles.size());
     for (const auto& point : mesh.points) {
         for (int axis = 0; axis < 3; ++axis) {
             append_raw(out, point[axis]);
         }
     }
-    for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         append_raw(out, std::uint8_t{3});
-        for (const std::uint32_t corner : triangle) {
+        for (const std::uint32_t corner : mesh.triangles[i]) {
             append_raw(out, corner);
+        }
+        for (std::size_t channel = 0; coloured && channel < 3; ++channel) {
+            append_raw(out, face_colours[i][channel]);
         }
     }
     return out;

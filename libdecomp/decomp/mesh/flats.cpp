@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "decomp/mesh/flats.h"
 
-#include "decomp/mesh/measure.h"
+#include "decomp/mesh/facets.h"
 
 #include <algorithm>
 #include <array>
@@ -20,26 +20,6 @@ constexpr double kFirstCone = 0.05;    // radians
 constexpr double kMeantAsAxis = 1e-7;  // radians
 constexpr double kSameArea = 1e-12;    // relative
 
-struct Facets {
-    std::vector<Eigen::Vector3d> unit;  // zero for a degenerate triangle
-    std::vector<double> area;
-    double total = 0;
-};
-
-Facets measure_facets(const TriMesh& mesh) {
-    Facets facets;
-    facets.unit.resize(mesh.triangles.size());
-    facets.area.resize(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Eigen::Vector3d vector = double_area_normal(mesh, i);
-        const double length = vector.norm();
-        facets.area[i] = length / 2;
-        facets.unit[i] = length > 0 ? Eigen::Vector3d(vector / length) : Eigen::Vector3d::Zero();
-        facets.total += facets.area[i];
-    }
-    return facets;
-}
-
 std::size_t cube_cell(const Eigen::Vector3d& unit) {
     int axis = 0;
     unit.cwiseAbs().maxCoeff(&axis);
@@ -57,13 +37,13 @@ std::size_t cube_cell(const Eigen::Vector3d& unit) {
 std::vector<Eigen::Vector3d> peak_normals(const Facets& facets, double min_share) {
     std::vector<Eigen::Vector3d> sums(6U * kGrid * kGrid, Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < facets.unit.size(); ++i) {
-        if (facets.area[i] > 0) {
-            sums[cube_cell(facets.unit[i])] += facets.area[i] * facets.unit[i];
+        if (facets.area_mm2[i] > 0) {
+            sums[cube_cell(facets.unit[i])] += facets.area_mm2[i] * facets.unit[i];
         }
     }
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        if (sums[i].norm() > min_share / 2 * facets.total) {
+        if (sums[i].norm() > min_share / 2 * facets.total_mm2) {
             order.push_back(i);
         }
     }
@@ -91,7 +71,7 @@ Eigen::Vector3d narrowed(const Facets& facets, Eigen::Vector3d normal, double la
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (const std::uint32_t i : members) {
             if ((facets.unit[i] - normal).squaredNorm() < cone * cone) {
-                sum += facets.area[i] * facets.unit[i];
+                sum += facets.area_mm2[i] * facets.unit[i];
             }
         }
         if (sum.squaredNorm() == 0) {
@@ -126,7 +106,7 @@ Flat heaviest_level(const TriMesh& mesh, const Facets& facets, const Eigen::Vect
                                       normal.dot(mesh.points[t[2]])};
         const auto [low, high] = std::minmax_element(h.begin(), h.end());
         if (*high - *low <= planar) {
-            levels.push_back({*low, *high, facets.area[i]});
+            levels.push_back({*low, *high, facets.area_mm2[i]});
         }
     }
     std::stable_sort(levels.begin(), levels.end(),
@@ -182,7 +162,7 @@ double area_at(const TriMesh& mesh, const Facets& facets, const std::vector<std:
         if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
                 return normal.dot(mesh.points[v]) >= least_height;
             })) {
-            area += facets.area[i];
+            area += facets.area_mm2[i];
         }
     }
     return area;
@@ -192,7 +172,7 @@ double area_at(const TriMesh& mesh, const Facets& facets, const std::vector<std:
 
 std::vector<Flat> large_flats(const TriMesh& mesh, const FlatOptions& options) {
     const Facets facets = measure_facets(mesh);
-    const double least_area = options.min_share * facets.total;
+    const double least_area = options.min_share * facets.total_mm2;
     std::vector<Flat> flats;
     const auto add = [&](const Flat& flat) {
         const bool known = std::any_of(flats.begin(), flats.end(), [&](const Flat& other) {

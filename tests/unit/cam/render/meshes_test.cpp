@@ -219,4 +219,41 @@ TEST(Explode, OpensAGapThatTheBackgroundShowsThrough) {
     EXPECT_NE(picture(explode(assembly, 0.0), small(View::Front)).at(100, 75), kWhite);
 }
 
+TEST(Meshes, EachTriangleHasItsOwnColour) {
+    const auto mesh = box({0, 0, 0}, {40, 7, 20});
+    Item item = item_of(mesh);
+    item.triangle_colours.assign(mesh.triangles.size(), Rgb{0, 200, 0});
+    const Image image = picture({item}, small(View::Front));
+    const Rgb middle = image.at(100, 75);
+    EXPECT_GT(middle.green, 100);
+    EXPECT_LT(middle.red, 30);
+    EXPECT_LT(middle.blue, 30);
+}
+
+TEST(Meshes, AStrokeIsDottedWhereItIsHidden) {
+    const auto mesh = box({-20, -20, -20}, {20, 20, 20});
+    ViewOptions options = small(View::Front);
+    options.strokes = {{.from = {-35, 0, 0}, .to = {35, 0, 0}, .colour = {255, 0, 0}}};
+    const Image image = picture({item_of(mesh)}, options);
+    const auto red_in = [&](int from, int to) {
+        int count = 0;
+        for (int x = from; x < to; ++x) {
+            count += image.at(x, 75) == Rgb{255, 0, 0} ? 1 : 0;
+        }
+        return count;
+    };
+    // 70 mm are 170 pixels: the box is 97 pixels wide in the middle.
+    EXPECT_EQ(red_in(20, 48), 28);
+    EXPECT_EQ(red_in(152, 180), 28);
+    EXPECT_NEAR(red_in(60, 140), 40, 12);
+}
+
+TEST(Meshes, TheLegendStandsInTheLowerLeftCorner) {
+    const auto mesh = box({0, 0, 0}, {1, 1, 1});
+    ViewOptions options = small(View::Front);
+    options.legend = {{{1, 2, 3}, "PLATE"}};
+    const Image image = picture({item_of(mesh)}, options);
+    EXPECT_EQ(image.at(19, 131), (Rgb{1, 2, 3}));
+}
+
 }  // namespace

@@ -30,4 +30,17 @@ TEST(WriteMesh, AnStlReadBackWritesTheSameBytes) {
     EXPECT_EQ(decomp::io::stl_bytes(*read), bytes);
 }
 
+TEST(WriteMesh, AColouredPlyReadsBackAsTheSameMeshAndHoldsItsColours) {
+    const auto sphere = tests::sphere(10.0 / 3, 12, 5);
+    std::vector<std::array<std::uint8_t, 3>> colours(sphere.triangles.size(), {10, 20, 30});
+    colours.back() = {201, 202, 203};
+    const std::string bytes = decomp::io::ply_bytes(sphere, colours);
+    const auto read = decomp::io::parse_mesh(bytes, "a.ply", {}, decomp::Run{});
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_EQ(read->points, sphere.points);
+    EXPECT_EQ(read->triangles, sphere.triangles);
+    EXPECT_NE(bytes.find("property uchar red"), std::string::npos);
+    EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xC9\xCA\xCB");
+}
+
 }  // namespace
