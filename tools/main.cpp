@@ -158,7 +158,7 @@ int run_command_line(int argc, char** argv) {
     app.footer(
         "'hew VERB --help' explains a verb. Exit codes: 0 done, 2 command line, 3 bad input, 4 "
         "cannot be made,\n"
-        "5 proof failed, 6 files, 130 interrupted.");
+        "5 proof failed, 6 files, 7 machine or port, 130 interrupted.");
     tools::Common common;
     std::vector<Declared> declared;
     for (const tools::Verb& verb : tools::verbs()) {

@@ -58,6 +58,9 @@ Action declare_check(CLI::App& app, const Common& common);
 Action declare_machines(CLI::App& app, const Common& common);
 Action declare_render(CLI::App& app, const Common& common);
 Action declare_polycube(CLI::App& app, const Common& common);
+Action declare_stream(CLI::App& app, const Common& common);
+Action declare_ports(CLI::App& app, const Common& common);
+Action declare_sim(CLI::App& app, const Common& common);
 Action declare_demo(CLI::App& app, const Common& common);
 
 }  // namespace tools

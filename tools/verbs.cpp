@@ -59,6 +59,24 @@ const std::vector<Verb>& verbs() {
          "  hew machines\n"
          "  hew machines show prusa-mk3s",
          declare_machines},
+        {"stream", "Machines", "run a proved program on a machine over its serial port",
+         "  hew stream out/ --port /dev/ttyACM0\n"
+         "  hew stream out/ --plate plate-2 --resume                        where it stood\n"
+         "  hew stream part.nc --machine genmitsu-3018 --foreign --port auto\n"
+         "  hew stream out/ --link virtual-marlin --port printer            with 'hew sim marlin "
+         "--pty "
+         "printer'\n"
+         "This is no safety function: the machine needs an emergency stop of its own.",
+         declare_stream},
+        {"ports", "Machines", "list the serial ports",
+         "  hew ports\n"
+         "  hew ports --json",
+         declare_ports},
+        {"sim", "Machines", "a virtual printer or mill at a pseudo-terminal, to try streaming on",
+         "  hew sim marlin --pty printer --baud 115200\n"
+         "  hew sim grbl --pty mill --faults faults.txt\n"
+         "  hew sim replay --log session.log --pty machine",
+         declare_sim},
         {"demo", "Machines", "write a statue that is larger than most printers, to try things on",
          "  hew demo statue.stl", declare_demo},
     };

@@ -4,9 +4,11 @@
 #include "cam/protocol/grbl.h"
 #include "cam/protocol/marlin.h"
 #include "cam/sim/grbl_board.h"
+#include "cam/sim/log_replay.h"
 #include "cam/sim/marlin_board.h"
 #include "cam/sim/virtual_machine.h"
 #include "cam/stream/session.h"
+#include "decomp/base/file.h"
 
 #include <gtest/gtest.h>
 
@@ -23,17 +25,30 @@ namespace tests {
 /// no memory.
 struct Executed {
     std::function<std::string(std::size_t)> wanted;
-    std::atomic<std::size_t> count{0};
-    std::atomic<std::size_t> changed{0};  ///< in place, but other than sent
+    std::atomic<std::size_t> count{0};    ///< in place
+    std::atomic<std::size_t> changed{0};  ///< of these, other than sent
+    std::atomic<std::size_t> added{0};    ///< that nobody sent
     std::string first_difference;
+    bool last_differs = false;
 
     void take(std::string_view text) {
-        const std::size_t index = count++;
-        if (wanted && text != wanted(index)) {
-            if (changed++ == 0) {
+        const std::size_t index = count;
+        if (!wanted || text == wanted(index)) {
+            ++count;
+            last_differs = false;
+        } else if (last_differs && text == wanted(index - 1)) {
+            // What came before belongs to no place.
+            ++added;
+            --changed;
+            last_differs = false;
+        } else {
+            if (first_difference.empty()) {
                 first_difference = std::to_string(index) + ": '" + std::string(text) +
                                    "' instead of '" + wanted(index) + "'";
             }
+            ++count;
+            ++changed;
+            last_differs = true;
         }
     }
 };

@@ -251,7 +251,10 @@ void MarlinBoard::start(const std::string& text, Time now) {
     const bool read = end != nullptr && end != text.c_str() + 1;
     const bool housekeeping =
         letter == 'M' && (code == 105 || code == 110 || code == 115 || code == 155 || code == 114);
-    if (read && !housekeeping && on_executed && (letter == 'G' || letter == 'M' || letter == 'T')) {
+    const bool known = (letter == 'G' && code >= 0 && code <= 100) ||
+                       (letter == 'M' && code >= 0 && code < 1000) ||
+                       (letter == 'T' && code >= 0 && code < 16);
+    if (read && known && !housekeeping && on_executed) {
         on_executed(text);
     }
     if (read && letter == 'G') {

@@ -83,7 +83,10 @@ decomp::Result<Standing> read_standing(const journal::Contents& contents) {
             standing.head = std::move(*head);
             begun = true;
         } else if (kind == "allow") {
-            (void)take_count(text, standing.allowed);
+            // A later attempt begins with less, and takes nothing back.
+            std::size_t allowed = 0;
+            (void)take_count(text, allowed);
+            standing.allowed = std::max(standing.allowed, allowed);
         } else if (kind == "at") {
             (void)(take_count(text, standing.acked) && take_count(text, standing.sent));
             standing.ended = false;

@@ -91,8 +91,10 @@ decomp::Result<Outcome> Session::run() {
     ended_->progress = conversation_.progress();
     ended_->seconds = std::chrono::duration<double>(now()).count();
     if (options_.journal != nullptr) {
-        options_.journal->add("at " + std::to_string(ended_->progress.acked) + " " +
-                              std::to_string(ended_->progress.sent));
+        if (ended_->progress.sent > 0) {
+            options_.journal->add("at " + std::to_string(ended_->progress.acked) + " " +
+                                  std::to_string(ended_->progress.sent));
+        }
         options_.journal->add(
             "end " + std::string(protocol::phase_name(ended_->phase)) + " " + ended_->code,
             journal::Writer::Urgency::Urgent);
@@ -161,7 +163,10 @@ void Session::handle(Event event, Instant now) {
 void Session::ready(const Event& event, Instant now) {
     if (!admitted_ && options_.admit) {
         if (const decomp::Status admitted = options_.admit(conversation_.identity()); !admitted) {
-            ended_ = Outcome{Phase::Failed, admitted.error().code, admitted.error().text(), {}, 0};
+            const decomp::Error& error = admitted.error();
+            std::string text = error.where.empty() ? "" : error.where + ": ";
+            text += error.message + (error.hint.empty() ? "" : "; " + error.hint);
+            ended_ = Outcome{Phase::Failed, error.code, text, {}, 0};
             return;
         }
     }

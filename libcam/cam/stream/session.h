@@ -72,6 +72,9 @@ class Session {
     Session& operator=(Session&&) = delete;
     ~Session();
 
+    /// From now on the journal is kept, and no line leaves that it does not allow. Before run().
+    void keep(journal::Writer& journal) { options_.journal = &journal; }
+
     /// What the operator wants; any thread.
     void post(protocol::Wish wish);
 

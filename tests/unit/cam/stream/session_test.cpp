@@ -52,6 +52,7 @@ struct MarlinRun {
         EXPECT_EQ(outcome.phase, Phase::Finished) << outcome.code << ": " << outcome.text;
         EXPECT_EQ(executed.count, lines);
         EXPECT_EQ(executed.changed, 0U) << executed.first_difference;
+        EXPECT_EQ(executed.added, 0U) << executed.first_difference;
     }
 };
 
