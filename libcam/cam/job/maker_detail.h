@@ -47,9 +47,10 @@ class Maker {
     /// The machine as the judge sees it: its chamber is no larger than the job wants its parts.
     [[nodiscard]] profile::FdmMachine judged_machine() const;
 
-    /// The polycube that the job names. @error those of io and tets; job.polycube
-    [[nodiscard]] decomp::Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>>
-    imported_map() const;
+    /// The polycube that the job names; made from the model when it wants boxes or the paper's way
+    /// without naming one; else null. @error those of io, tets and polycube; job.polycube
+    [[nodiscard]] decomp::Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> map_for(
+        const decomp::mesh::TriMesh& model, decomp::Run& run) const;
 
     [[nodiscard]] Files make_model(decomp::Run& run);
     [[nodiscard]] Files make_parts(decomp::Run& run);

@@ -185,7 +185,7 @@ Maker::Files Maker::make_parts(Run& run) {
     options.mode = *mode;
     options.global_sweep = job_.options.sweep == "global";
     options.keep_boxes = job_.options.boxes;
-    const auto map = imported_map();
+    const auto map = map_for(*model, run);
     if (!map) {
         return fail(map.error());
     }

@@ -3,6 +3,8 @@
 #include "cam/orient/choose_build.h"
 #include "decomp/io/read_tets.h"
 #include "decomp/map/quantise.h"
+#include "decomp/partition/partition.h"
+#include "decomp/polycube/generate.h"
 #include "decomp/tets/pair.h"
 
 #include <algorithm>
@@ -26,10 +28,43 @@ profile::FdmMachine Maker::judged_machine() const {
     return machine;
 }
 
-Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> Maker::imported_map() const {
+namespace {
+
+using Map = std::shared_ptr<const decomp::pipeline::PolycubeMap>;
+
+/// What a partition by this map would put into the wrong part: the score of a start.
+double vote_error(const decomp::tets::Pair& pair, const decomp::tets::Lattice& lattice,
+                  const decomp::mesh::TriMesh& volume) {
+    decomp::Run quiet;
+    decomp::partition::PartitionOptions options;
+    options.limit_cuts = false;
+    options.check_rounded = false;
+    const auto found = decomp::partition::partition(volume, pair, lattice, options, quiet);
+    return found ? found->figures.mislabeled_share : 1;
+}
+
+Result<Map> made_map(const decomp::mesh::TriMesh& model, decomp::Run& run) {
+    auto made = decomp::polycube::generate(model, {}, vote_error, run);
+    if (!made) {
+        return fail(made.error());
+    }
+    decomp::pipeline::PolycubeMap map;
+    map.pair = std::move(made->pair);
+    map.lattice = std::move(made->lattice);
+    map.tier = made->tier;
+    return std::make_shared<const decomp::pipeline::PolycubeMap>(std::move(map));
+}
+
+}  // namespace
+
+Result<Map> Maker::map_for(const decomp::mesh::TriMesh& model, decomp::Run& run) const {
     const std::vector<std::string>& files = job_.options.polycube;
+    if (files.empty() && job_.options.mode != "sections" &&
+        (job_.options.boxes || job_.options.mode == "paper")) {
+        return made_map(model, run);
+    }
     if (files.empty()) {
-        return std::shared_ptr<const decomp::pipeline::PolycubeMap>();
+        return Map();
     }
     if (files.size() != 2) {
         return fail("job.polycube", "a polycube is two files of tets, the shape and its polycube");
