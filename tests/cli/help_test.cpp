@@ -17,9 +17,9 @@ std::set<std::string> options_in(const std::string& text) {
     return out;
 }
 
-const std::vector<std::string> kVerbs{"make",     "decompose", "slice",    "verify", "inspect",
-                                      "render",   "machines",  "demo",     "check",  "export",
-                                      "polycube", "stream",    "ports",    "sim"};
+const std::vector<std::string> kVerbs{"make",     "decompose", "slice", "verify", "inspect",
+                                      "render",   "machines",  "demo",  "check",  "export",
+                                      "polycube", "stream",    "ports", "sim"};
 
 TEST(Help, EveryVerbHasHelpWithExamples) {
     const std::string overview = hew({"--help"}).out;
