@@ -23,6 +23,7 @@ constexpr int kSweeps = 10;
 constexpr double kSettled = 1e-3;  // share of the energy gained in a round, without flips
 constexpr int kPatience = 8;       // rounds before being stuck ends a try
 constexpr double kStuck = 1e-5;    // the same, with flips
+constexpr double kKept = 0.5;      // of the polycube's volume
 
 mesh::Triangle sorted(mesh::Triangle t) {
     std::sort(t.begin(), t.end());
@@ -245,7 +246,9 @@ Result<MapResult> map_to_polycube(const tets::TetMesh& tets, const mesh::TriMesh
         Untangler other = started;
         other.relax(1 + attempt);
         const std::size_t others = other.untangle(run, false);
-        if (others < flips) {
+        // A polycube that shrank to lose its last flips is worse than a few flips.
+        if (others < flips && tets::measure(other.pair()).polycube_mm3 >=
+                                  kKept * tets::measure(untangler.pair()).polycube_mm3) {
             untangler = std::move(other);
             flips = others;
         }
