@@ -31,6 +31,7 @@ constexpr double kTopReachSpacings = 1.2;  // the dense top of a column rests on
 constexpr double kNotchMm =
     1.0;  // notches in a column's outline narrower than twice this are closed
 constexpr double kSmoothMm = 0.1;
+constexpr double kStandingShare = 0.9;  // of a piece of support, on what is below it
 constexpr double kLeastRoomMm2 = 0.05;  // for the centre line of a bead
 
 /// What begins on a layer and needs something below, grown by the reach of its column.
@@ -258,32 +259,38 @@ class Descent {
         return polygon::offset(out, top_reach_mm_);
     }
 
-    static bool rests(const Paths& piece, const Paths& below) {
-        return polygon::area_mm2(polygon::intersect(piece, below)) >= kLeastIslandLapMm2;
+    /// What of a piece stands on the layer below: all of a piece that mostly does, else what lies
+    /// within a bead of it.
+    [[nodiscard]] Paths standing(const Paths& piece, const Paths& below) const {
+        const double lap = polygon::area_mm2(polygon::intersect(piece, below));
+        if (lap >= kStandingShare * polygon::area_mm2(piece)) {
+            return piece;
+        }
+        if (lap < kLeastIslandLapMm2) {
+            return {};
+        }
+        return polygon::intersect(piece, polygon::offset(below, line_width_mm_));
     }
 
-    /// Bottom up: support that stands on nothing, cut off by the gap beside the part, is left out.
+    /// Bottom up: support that stands on nothing, cut off by the gap beside the part, is left out;
+    /// a neck to a neighbour that stands does not hold it.
     void drop_floating(std::vector<SupportAreas>& areas) const {
         Paths below = polygon::unite(areas[0].body, areas[0].interface);
         for (std::size_t i = 1; i < areas.size(); ++i) {
             SupportAreas& now = areas[i];
-            Paths column = polygon::unite(now.body, now.interface);
-            Paths standing;
-            bool all = true;
+            if (now.body.empty() && now.interface.empty()) {
+                below.clear();
+                continue;
+            }
+            const Paths column = polygon::unite(now.body, now.interface);
+            const Paths carrying = polygon::unite(below, slices_[i - 1]);
+            below.clear();
             for (const polygon::Island& island : polygon::islands(column)) {
-                const Paths loops = island.loops();
-                if (rests(loops, below) || rests(loops, slices_[i - 1])) {
-                    standing.insert(standing.end(), loops.begin(), loops.end());
-                } else {
-                    all = false;
-                }
+                const Paths stands = standing(island.loops(), carrying);
+                below.insert(below.end(), stands.begin(), stands.end());
             }
-            if (!all) {
-                now.body = polygon::intersect(now.body, standing);
-                now.interface = polygon::intersect(now.interface, standing);
-                column = std::move(standing);
-            }
-            below = std::move(column);
+            now.body = with_beads(polygon::intersect(now.body, below));
+            now.interface = with_beads(polygon::intersect(now.interface, below));
         }
     }
 
