@@ -15,14 +15,14 @@ inline constexpr double kRingOuterMm = 0.1;  ///< the skin ring, inside the surf
 inline constexpr double kRingInnerMm = 0.35;
 inline constexpr double kSkinMm2 = 1.0;      ///< uncovered ring of one layer; peers 0
 inline constexpr double kSkinShare = 0.005;  ///< and of its ring
-inline constexpr double kOutsideMm = 0.15;   ///< a bead may swell that far out of the part
+inline constexpr double kOutsideMm = 0.15;  ///< a bead may swell that far out of the part
 inline constexpr double kOutsideLayerMm3 =
     0.25;  ///< undeclared material outside, one layer; peers 0.01
 inline constexpr double kOutsideShare = 0.0005;  ///< of the part's material; peers 0.000011
 inline constexpr double kContactLayers = 2;  ///< free layers between a support and what it carries
 inline constexpr double kContactSlackMm = 0.06;
 inline constexpr double kIslandMm2 = 0.3;         ///< smaller specks of the part are no island
-inline constexpr double kSupportIslandMm2 = 1.5;  ///< nor are these of supports: a lost thread
+inline constexpr double kSupportIslandMm2 = 2.0;  ///< nor are these of supports: a lost thread
 inline constexpr double kHangingMm = 3.0;         ///< free overhang of one layer
 inline constexpr double kHangingMm2 = 4.0;        ///< beyond that, one layer; peers 0
 inline constexpr double kAnchorMm = 1.0;  ///< ends of bridges lie that near to what carries them
