@@ -15,7 +15,7 @@ inline constexpr double kRingOuterMm = 0.1;  ///< the skin ring, inside the surf
 inline constexpr double kRingInnerMm = 0.35;
 inline constexpr double kSkinMm2 = 1.0;      ///< uncovered ring of one layer; peers 0
 inline constexpr double kSkinShare = 0.005;  ///< and of its ring
-inline constexpr double kOutsideMm = 0.15;  ///< a bead may swell that far out of the part
+inline constexpr double kOutsideMm = 0.15;   ///< a bead may swell that far out of the part
 inline constexpr double kOutsideLayerMm3 =
     0.25;  ///< undeclared material outside, one layer; peers 0.01
 inline constexpr double kOutsideShare = 0.0005;  ///< of the part's material; peers 0.000011
