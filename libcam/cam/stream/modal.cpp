@@ -11,9 +11,14 @@ namespace {
 
 constexpr double kMmPerInch = 25.4;
 constexpr double kShortest = 1e-9;  ///< chord that has a direction, mm
+constexpr double kFarthest =
+    1e8;  ///< where relative moves have summed up to nonsense, mm or degrees
 
 /// Codes with a decimal, such as G59.3, times ten.
 int tenths(double value) { return static_cast<int>(std::lround(value * 10)); }
+
+/// The coordinate, or unknown when nothing can stand there.
+double known(double value) { return std::abs(value) > kFarthest ? std::nan("") : value; }
 
 double value_of(const Words& words, char letter, double otherwise) {
     const Word* word = words.find(letter);
@@ -206,7 +211,7 @@ Motion move(ModalState& state, const Words& words, Flavour flavour) {
         const Word* word = words.find(kAxisLetters[axis]);
         if (word != nullptr && !word->bare) {
             const double value = word->value * (axis < linear ? unit : 1);
-            motion.to.at(axis) = absolute ? value : motion.from.at(axis) + value;
+            motion.to.at(axis) = known(absolute ? value : motion.from.at(axis) + value);
         }
         const double step = motion.to.at(axis) - motion.from.at(axis);
         square += std::isnan(step) ? 0 : step * step;
@@ -215,7 +220,7 @@ Motion move(ModalState& state, const Words& words, Flavour flavour) {
     }
     motion.length_mm = std::sqrt(square);
     if (const Word* e = words.find('E'); flavour == Flavour::Print && e != nullptr && !e->bare) {
-        state.e_mm = state.absolute_e ? e->value * unit : state.e_mm + e->value * unit;
+        state.e_mm = known(state.absolute_e ? e->value * unit : state.e_mm + e->value * unit);
     }
     if (state.motion == 2 || state.motion == 3) {
         trace_arc(state, words, unit, state.motion == 2, motion);
@@ -241,11 +246,11 @@ void set_position(ModalState& state, const Words& words, Flavour flavour) {
     for (std::size_t axis = 0; axis < kMaxAxes; ++axis) {
         const Word* word = words.find(kAxisLetters[axis]);
         if (word != nullptr && !word->bare) {
-            state.position_mm.at(axis) = word->value * (axis < 3 ? unit : 1);
+            state.position_mm.at(axis) = known(word->value * (axis < 3 ? unit : 1));
         }
     }
     if (const Word* e = words.find('E'); flavour == Flavour::Print && e != nullptr) {
-        state.e_mm = e->value * unit;
+        state.e_mm = known(e->value * unit);
     }
 }
 

@@ -152,7 +152,7 @@ void each_state(std::string_view program, Flavour flavour, long first_line, Moda
 
 bool place_known(const ModalState& state) {
     return !std::isnan(state.position_mm[0]) && !std::isnan(state.position_mm[1]) &&
-           !std::isnan(state.position_mm[2]);
+           !std::isnan(state.position_mm[2]) && !std::isnan(state.e_mm);
 }
 
 }  // namespace

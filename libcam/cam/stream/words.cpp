@@ -103,6 +103,10 @@ Words read_words(std::string_view line) {
         number.remove_prefix(number.starts_with('+') ? 1 : 0);
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(),
                                                   word.value, std::chars_format::fixed);
+        if (error == std::errc::result_out_of_range || std::abs(word.value) > Words::kLargest) {
+            out.readable = false;
+            return out;
+        }
         if (error == std::errc{} && std::isfinite(word.value)) {
             word.bare = false;
             rest = number.substr(static_cast<std::size_t>(end - number.data()));

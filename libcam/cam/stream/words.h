@@ -18,10 +18,12 @@ struct Word {
 /// The words of one line, in order.
 struct Words {
     static constexpr std::size_t kMost = 32;
+    static constexpr double kLargest = 1e7;  ///< no machine is told a larger number
 
     std::array<Word, kMost> words{};
     std::size_t count = 0;
-    bool readable = true;  ///< false: something is no word, or there are too many
+    bool readable =
+        true;  ///< false: something is no word, a number is too large, or there are too many
 
     [[nodiscard]] const Word* begin() const { return words.data(); }
 

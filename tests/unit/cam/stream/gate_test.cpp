@@ -52,6 +52,15 @@ TEST(Gate, FeedsSpeedsAxesAndCodesAreLookedAt) {
                      "stream.unknown_code:4"}));
 }
 
+TEST(Gate, ANumberThatNoMachineIsToldIsUnreadable) {
+    EXPECT_EQ(codes(examine_bounds("G22222222222222 X1\nG1 X1e400\n", mill(), {})),
+              Codes{"stream.unreadable_line:1"});
+    EXPECT_EQ(codes(examine_bounds("G1 X10000001 F100\n", mill(), {{"G54", {}}})),
+              Codes{"stream.unreadable_line:1"});
+    EXPECT_EQ(codes(examine_bounds("G1 X10000000 F100\n", mill(), {{"G54", {}}})),
+              Codes{"stream.bounds:1"});
+}
+
 TEST(Gate, APrintersHeatersAreLookedAt) {
     Limits limits;
     limits.max_nozzle_celsius = 250;

@@ -116,6 +116,22 @@ TEST(Resume, AJobThatHasSaidNoPlaceCannotGoOn) {
     EXPECT_EQ(plan.error().code, "stream.position_unknown");
 }
 
+TEST(Resume, APlaceSummedUpBeyondAllMachinesIsNone) {
+    std::string far = "G21\nG90\nG1X1Y1Z1F600\nG91\n";
+    std::string fed = "G21\nG90\nG1X1Y1Z1F600\nM83\n";
+    for (int i = 0; i < 200; ++i) {
+        far += "G1X9000000\n";
+        fed += "G1E9000000\n";
+    }
+    for (const std::string& program : {far, fed}) {
+        const auto plan = plan_resume(program, {}, 204, 1);
+        ASSERT_TRUE(plan);
+        EXPECT_LT(plan->first_line, 20);
+        EXPECT_LE(std::abs(plan->state.position_mm[0]), 1e8);
+        EXPECT_LE(std::abs(plan->state.e_mm), 1e8);
+    }
+}
+
 TEST(Resume, TheFirstMoveOfTheRestSaysHowItMoves) {
     const std::string program = "G90\nG0X1Y1Z1\nG3X5Y5I2J2F100\nX1Y1I-2J-2\n";
     WireOptions options;
