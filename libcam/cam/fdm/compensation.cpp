@@ -50,14 +50,6 @@ Paths with_sizes(const Paths& slice, const Compensation& by) {
     return polygon::region_of(out);
 }
 
-/// Drawn in, except where that would leave less than the least width.
-Paths with_foot(const Paths& slice, const Compensation& by) {
-    const double half = by.least_width_mm / 2;
-    const Paths broad = polygon::offset(polygon::offset(slice, -half), half);
-    const Paths narrow = polygon::subtract(slice, polygon::offset(broad, by.foot_inset_mm / 2));
-    return polygon::unite(polygon::offset(slice, -by.foot_inset_mm), narrow);
-}
-
 }  // namespace
 
 bool is_round_hole(const Path& loop) {
@@ -72,10 +64,21 @@ Paths compensated(const Paths& slice, const Paths& mating, const Compensation& b
     if (by.mating_inset_mm > 0 && !mating.empty()) {
         out = polygon::subtract(out, polygon::thickened(mating, by.mating_inset_mm));
     }
-    if (by.foot_inset_mm > 0) {
-        out = with_foot(out, by);
-    }
     return out;
+}
+
+Paths foot_drawn_in(const Paths& slice, const Paths& above, const Compensation& by) {
+    if (by.foot_inset_mm <= 0) {
+        return slice;
+    }
+    const double half = by.least_width_mm / 2;
+    const Paths broad = polygon::offset(polygon::offset(slice, -half), half);
+    const Paths narrow = polygon::subtract(slice, polygon::offset(broad, by.foot_inset_mm / 2));
+    //   layer 2  ______________|    A countersink, a fillet: what spreads lies under the shelf, and
+    //   layer 1  __________|        a foot drawn in would take away what carries the shelf's wall.
+    const Paths shelf = polygon::opened(polygon::subtract(above, slice), by.foot_inset_mm / 2);
+    const Paths under = polygon::intersect(slice, polygon::offset(shelf, 2 * by.foot_inset_mm));
+    return polygon::unite(polygon::unite(polygon::offset(slice, -by.foot_inset_mm), narrow), under);
 }
 
 }  // namespace cam::fdm

@@ -69,13 +69,12 @@ Paths printable(const Paths& slice) {
     return out;
 }
 
-/// @param first  the layer on the bed
-Compensation compensation_of(const Process& process, bool first) {
+Compensation compensation_of(const Process& process) {
     Compensation out;
     out.outline_inset_mm = process.outline_inset_mm;
     out.hole_growth_mm = process.hole_growth_mm;
     out.mating_inset_mm = process.mating_gap_mm / 2;
-    out.foot_inset_mm = first ? process.elephant_foot_mm : 0;
+    out.foot_inset_mm = process.elephant_foot_mm;
     out.least_width_mm = 2 * process.first_layer_line_width_mm + 2 * process.elephant_foot_mm;
     return out;
 }
@@ -93,11 +92,17 @@ decomp::Status fill_slices(const decomp::mesh::TriMesh& mesh, const std::vector<
         return decomp::fail(slices.error());
     }
     auto lines = mating_lines(mesh, mating, heights);
+    const Compensation by = compensation_of(process);
     decomp::for_each_index(run, layers.size(), [&](std::size_t i) {
         layers[i].mating = std::move(lines[i]);
-        layers[i].slice = printable(
-            compensated((*slices)[i], layers[i].mating, compensation_of(process, i == 0)));
+        (*slices)[i] = compensated((*slices)[i], layers[i].mating, by);
     });
+    if (!slices->empty()) {
+        slices->front() =
+            foot_drawn_in(slices->front(), slices->size() > 1 ? (*slices)[1] : Paths{}, by);
+    }
+    decomp::for_each_index(run, layers.size(),
+                           [&](std::size_t i) { layers[i].slice = printable((*slices)[i]); });
     return {};
 }
 

@@ -69,11 +69,36 @@ TEST(Compensation, TheFootIsDrawnInAllRoundExceptWhereItIsThin) {
     // A square with a fin of 0.6 mm.
     const Paths shape = cam::polygon::unite({tests::rectangle({0, 0}, {10, 10})},
                                             {tests::rectangle({10, 5}, {20, 5.6})});
-    const Paths got = compensated(shape, {}, by);
+    const Paths got = foot_drawn_in(shape, shape, by);
     const auto box = cam::polygon::bounds(got);
     EXPECT_EQ(box.min.x, cam::polygon::nanometres(0.2));
     EXPECT_EQ(box.max.x, cam::polygon::nanometres(20)) << "the fin keeps its length";
     EXPECT_NEAR(area_mm2(got), 9.6 * 9.6 + 0.6 * 10.2, 0.3);
+}
+
+TEST(Compensation, AFootUnderAShelfIsNotDrawnIn) {
+    Compensation by = nothing();
+    by.foot_inset_mm = 0.1;
+    by.least_width_mm = 1;
+    const Paths slice = {tests::rectangle({0, 0}, {10, 10})};
+    // The next layer sticks out by 0.2 mm at the right, by less than a foot at the top.
+    const Paths above = {tests::rectangle({0, 0}, {10.2, 10.05})};
+    const Paths got = foot_drawn_in(slice, above, by);
+    const auto bounds_in = [&](const cam::polygon::Path& window) {
+        return cam::polygon::bounds(cam::polygon::intersect(got, {window}));
+    };
+    const auto upright = bounds_in(tests::rectangle({3, -1}, {7, 11}));
+    EXPECT_EQ(upright.min.y, cam::polygon::nanometres(0.1));
+    EXPECT_EQ(upright.max.y, cam::polygon::nanometres(9.9));
+    const auto across = bounds_in(tests::rectangle({-1, 3}, {11, 7}));
+    EXPECT_EQ(across.min.x, cam::polygon::nanometres(0.1));
+    EXPECT_EQ(across.max.x, cam::polygon::nanometres(10));
+    // A countersink that opens towards the bed keeps the width that it is drawn with.
+    const Paths square = {tests::rectangle({-5, -5}, {5, 5})};
+    const Paths wide = cam::polygon::subtract(square, {tests::disc(3, 60)});
+    const Paths narrow = cam::polygon::subtract(square, {tests::disc(2.8, 60)});
+    const double at_the_outline = 10 * 10 - 9.8 * 9.8;
+    EXPECT_NEAR(area_mm2(wide) - area_mm2(foot_drawn_in(wide, narrow, by)), at_the_outline, 0.2);
 }
 
 TEST(Mating, LinesRunWhereThePlaneMeetsTheMarkedFacets) {
