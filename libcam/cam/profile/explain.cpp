@@ -16,8 +16,10 @@ std::string file_folder(File file) {
         case File::Machine:
             return "fdm";
         case File::Material:
+        case File::MillMaterial:
             return "materials";
         case File::Dialect:
+        case File::MillDialect:
             return "dialects";
         case File::Mill:
             return "mill";
@@ -57,7 +59,8 @@ and a tool in `mill` and `tools`. They are looked for in `./machine_profiles`, `
 a slash or `.toml` in it is a path, and brings its own `../materials`, `../dialects` and `../tools` along.
 
 Every file begins with `schema = 1`. Keys end in their unit. An unknown key, a missing one, a value of the wrong type or out
-of its range is an error with file, line and column; all faults of a file are told at once. A set-up whose files do not fit
+of its range is an error with file, line and column; all faults of a file are told at once. What a mill's controller reads and what is milled are
+dialects and materials with a section `[milling]`; `sources` says where each of their values was read. A set-up whose files do not fit
 together (a material too hot for the machine, a template with a word that the dialect forbids) is refused.
 
 `--set section.key=value` overrides any number or text of any section for one run, e.g. `--set process.brim_width_mm=5` or
@@ -137,7 +140,10 @@ std::string profile_reference_markdown() {
     ToolFile tool;
     std::vector<Field> fields = fields_of(printer);
     Link link;
-    for (std::vector<Field> more : {fields_of(mill), fields_of(tool), fields_of(link)}) {
+    MillDialect dialect;
+    MillMaterial material;
+    for (std::vector<Field> more : {fields_of(mill), fields_of(tool), fields_of(dialect),
+                                    fields_of(material), fields_of(link)}) {
         fields.insert(fields.end(), more.begin(), more.end());
     }
     std::string out = kPreface;

@@ -183,8 +183,7 @@ const Table<FdmMachine::Process>& process_rows() {
         {"bridge_speed_mm_per_s", &P::bridge_speed, "mm/s", 1, 1000, kOptional,
          "of beads over air"},
         {"overhang_speed_mm_per_s", &P::overhang_speed, "mm/s", 1, 1000, kOptional,
-         "of walls that lie over air by three quarters of their width; those by a quarter or a "
-         "half lie between"},
+         "of walls that lie over air by more than half their width"},
         {"support_speed_mm_per_s", &P::support_speed, "mm/s", 1, 1000, kOptional, "of supports"},
         {"first_layer_speed_mm_per_s", &P::first_layer_speed, "mm/s", 1, 1000, kOptional,
          "of everything on the bed"},

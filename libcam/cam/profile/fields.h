@@ -18,7 +18,7 @@ using Target =
                  decomp::Angle*, Eigen::Vector3d*, Eigen::Vector4d*, std::vector<double>*>;
 
 /// Which file a section belongs to.
-enum class File { Machine, Material, Dialect, Mill, Tool, Link };
+enum class File { Machine, Material, Dialect, Mill, Tool, Link, MillDialect, MillMaterial };
 
 struct Field {
     File file = File::Machine;

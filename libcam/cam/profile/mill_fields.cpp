@@ -11,6 +11,8 @@ const Table<MillMachine>& mill_rows() {
     static const Table<M> rows = {
         {"title", &M::title, "", 0, 0, kRequired, "name for people"},
         {"tools", &M::tools, "", 0, 0, kRequired, "files of tools/, in the order of use"},
+        {"dialect", &M::dialect, "", 0, 0, kOptional, "file of dialects/ with a section [milling]"},
+        {"sources", &M::sources, "", 0, 0, kOptional, "where the values were read, a text each"},
     };
     return rows;
 }
@@ -40,6 +42,29 @@ const Table<MillMachine::Rotary>& rotary_rows() {
          "from the spindle's nose at the top of its travel down to the axis"},
         {"a_sign", &R::a_sign, "", -1, 1, kOptional,
          "+1: A counts as LinuxCNC and ISO 841 have it; -1: the other way"},
+    };
+    return rows;
+}
+
+const Table<MillMachine::Spindle>& spindle_rows() {
+    using S = MillMachine::Spindle;
+    static const Table<S> rows = {
+        {"min_rpm", &S::min_rpm, "1/min", 0, 100000, kOptional, "slowest speed that it holds"},
+        {"max_rpm", &S::max_rpm, "1/min", 1, 200000, kOptional, "highest speed"},
+        {"power_w", &S::power_w, "W", 0, 100000, kOptional,
+         "at the cutter; 0: unknown, cuts are not checked against it"},
+        {"spin_up_s", &S::spin_up_s, "s", 0, 120, kOptional, "waited after each start"},
+    };
+    return rows;
+}
+
+const Table<MillMachine::Axes>& axes_rows() {
+    using A = MillMachine::Axes;
+    static const Table<A> rows = {
+        {"max_feed_mm_per_min", &A::max_feed_mm_per_min, "mm/min", 1, 100000, kOptional,
+         "highest speed of X, Y, Z"},
+        {"acceleration_mm_per_s2", &A::acceleration_mm_per_s2, "mm/s^2", 1, 50000, kOptional,
+         "of X, Y, Z"},
     };
     return rows;
 }
@@ -113,6 +138,8 @@ std::vector<Field> fields_of(MillMachine& machine) {
     bind(out, File::Mill, "machine", mill_rows(), machine);
     bind(out, File::Mill, "travel", travel_rows(), machine.travel);
     bind(out, File::Mill, "rotary", rotary_rows(), machine.rotary);
+    bind(out, File::Mill, "spindle", spindle_rows(), machine.spindle);
+    bind(out, File::Mill, "axes", axes_rows(), machine.axes);
     bind(out, File::Mill, "reach", reach_rows(), machine.reach);
     return out;
 }
@@ -176,6 +203,9 @@ std::vector<std::string> inconsistencies(const MillMachine& machine) {
         !(machine.rotary.max_length_mm > 0 && machine.rotary.nose_to_axis_mm > 0)) {
         said.emplace_back(
             "a rotary axis needs rotary.max_length_mm and rotary.nose_to_axis_mm above 0");
+    }
+    if (machine.spindle.min_rpm > machine.spindle.max_rpm) {
+        said.emplace_back("spindle.max_rpm must not be below spindle.min_rpm");
     }
     if (machine.reach.tolerance_mm < machine.reach.cell_mm * 0.7071) {
         said.emplace_back("reach.tolerance_mm must be at least 0.71 of reach.cell_mm");

@@ -20,6 +20,8 @@ struct ToolFile {
 
 [[nodiscard]] std::vector<Field> fields_of(MillMachine& machine);
 [[nodiscard]] std::vector<Field> fields_of(ToolFile& file);
+[[nodiscard]] std::vector<Field> fields_of(MillDialect& dialect);
+[[nodiscard]] std::vector<Field> fields_of(MillMaterial& material);
 
 [[nodiscard]] ToolFile file_of(const tool::Tool& tool);
 
@@ -28,5 +30,15 @@ struct ToolFile {
 
 /// As inconsistencies() of a printer's set-up.
 [[nodiscard]] std::vector<std::string> inconsistencies(const MillMachine& machine);
+
+/// The same of a dialect: its templates can be written and hold no word that it forbids.
+[[nodiscard]] std::vector<std::string> inconsistencies(const MillDialect& dialect);
+
+/// The same of a machine and the dialect of its controller.
+[[nodiscard]] std::vector<std::string> inconsistencies(const MillMachine& machine,
+                                                       const MillDialect& dialect);
+
+/// The same of a material.
+[[nodiscard]] std::vector<std::string> inconsistencies(const MillMaterial& material);
 
 }  // namespace cam::profile

@@ -72,6 +72,63 @@ TEST(MillProfile, MistakesAreNamedWithTheNearestName) {
               "profile.inconsistent");
 }
 
+TEST(MillProfile, EveryShippedMillNamesItsSourcesAndItsController) {
+    for (const std::string& name : list_mills()) {
+        const auto setup = read_mill_setup(name).value();
+        EXPECT_FALSE(setup.machine.sources.empty()) << name;
+        EXPECT_EQ(setup.dialect.name, setup.machine.dialect);
+        EXPECT_FALSE(setup.dialect.sources.empty()) << setup.dialect.name;
+    }
+    EXPECT_EQ(cam::profile::list_mill_dialects(),
+              (std::vector<std::string>{"carvera", "fluidnc", "grbl", "grblhal", "linuxcnc", "mach",
+                                        "marlin-mill", "roland-nc"}));
+}
+
+TEST(MillProfile, AMachineWithMoreAxesThanItsDialectIsRefused) {
+    for (const char* dialect : {"grbl", "marlin-mill"}) {
+        const auto refused = read_mill_setup("linuxcnc-router-4axis", {},
+                                             {std::string("machine.dialect=") + dialect});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, "profile.inconsistent");
+        EXPECT_NE(refused.error().message.find("axis A"), std::string::npos);
+        EXPECT_TRUE(read_mill_setup("linuxcnc-router-3axis", {},
+                                    {std::string("machine.dialect=") + dialect}));
+    }
+}
+
+TEST(MillProfile, AnotherDialectIsAnotherSetup) {
+    const auto own = read_mill_setup("linuxcnc-router-3axis").value();
+    const auto other =
+        read_mill_setup("linuxcnc-router-3axis", {}, {"machine.dialect=grblhal"}).value();
+    EXPECT_EQ(other.dialect.end.substr(0, 3), "M30");
+    EXPECT_NE(own.hash, other.hash);
+    EXPECT_FALSE(
+        read_mill_setup("linuxcnc-router-3axis", {}, {"milling.arcs=false"})->dialect.arcs);
+}
+
+TEST(MillProfile, ADialectDoesNotWriteWhatItForbids) {
+    const auto refused = read_mill_setup("linuxcnc-router-3axis", {}, {"milling.end=G20 M2"});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("G20"), std::string::npos);
+    EXPECT_EQ(
+        read_mill_setup("linuxcnc-router-3axis", {}, {"milling.dwell=G4 P{second}"}).error().code,
+        "profile.inconsistent");
+}
+
+TEST(MillProfile, EveryShippedMaterialNamesSourceAndLicenceOfItsValues) {
+    const std::vector<std::string> names = cam::profile::list_mill_materials();
+    EXPECT_EQ(names, (std::vector<std::string>{"acrylic", "aluminium-6061", "brass", "foam", "mdf",
+                                               "pine", "plywood"}));
+    for (const std::string& name : names) {
+        const auto material = cam::profile::read_mill_material(name);
+        ASSERT_TRUE(material) << material.error().text();
+        EXPECT_GE(material->sources.size(), 3U) << name;
+    }
+    EXPECT_EQ(cam::profile::read_mill_material("pin").error().code, "profile.not_found");
+    EXPECT_EQ(cam::profile::read_mill_material("pine", {"milling.coolant=tea"}).error().code,
+              "profile.inconsistent");
+}
+
 TEST(MillProfile, AToolThatContradictsItselfIsRefused) {
     const tests::TempDir folder;
     const auto path = folder / "blunt.toml";
