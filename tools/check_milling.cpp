@@ -132,8 +132,7 @@ Json indices_json(const cam::check::Indices& indices) {
     return {{"a_deg", indices.a_degrees},
             {"covered_percent", indices.covered_percent},
             {"coverable_percent", indices.coverable_percent},
-            {"proved_smallest", indices.smallest},
-            {"at_least", indices.at_least}};
+            {"proved_smallest", indices.smallest}};
 }
 
 Json mill4_json(const Part& part, const Mill4Check& check) {
@@ -181,9 +180,7 @@ std::string indices_text(const cam::check::Indices& indices) {
         text += (i == 0 ? "A " : " ") + decomp::decimal(indices.a_degrees[i], 1) + " (" +
                 decomp::decimal(indices.covered_percent[i], 1) + ")";
     }
-    return text + (indices.smallest
-                       ? ""
-                       : " not proved smallest: at least " + std::to_string(indices.at_least));
+    return text + (indices.smallest ? "" : " not proved smallest");
 }
 
 Result<cam::check::Mill4Options> mill4_options(const CheckRequest& request, const Mill& mill) {
