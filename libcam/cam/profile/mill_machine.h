@@ -96,7 +96,7 @@ struct MillDialect {
 struct MillMaterial {
     std::string name;
     std::string title;
-    double surface_speed_m_per_min = 200;  ///< of the cutting edge
+    double surface_speed_m_per_min = 200;  ///< of the teeth
     double chip_load = 0.01;               ///< mm a tooth for each mm of diameter
     double min_chip_mm = 0.005;            ///< thinner chips rub instead of being cut
     double step_down = 0.5;                ///< of the diameter

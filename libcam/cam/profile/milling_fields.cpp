@@ -53,7 +53,7 @@ const Table<MillMaterial>& material_rows() {
     static const Table<M> rows = {
         {"title", &M::title, "", 0, 0, kRequired, "name for people"},
         {"surface_speed_m_per_min", &M::surface_speed_m_per_min, "m/min", 1, 2000, kRequired,
-         "of the cutting edge, carbide"},
+         "of the teeth, carbide"},
         {"chip_load", &M::chip_load, "", 0.0005, 0.1, kRequired,
          "mm a tooth for each mm of diameter"},
         {"min_chip_mm", &M::min_chip_mm, "mm", 0, 0.5, kRequired,
