@@ -60,7 +60,7 @@ Turning turning(double diameter_mm, double chip_mm, double thinning, const Tool&
     }
     const double least_chip_mm = std::min(material.min_chip_mm, chip_mm) * thinning;
     const double slow = out.feed_mm_per_min / (teeth * least_chip_mm);
-    if (out.rpm > slow * *kSame) {
+    if (out.rpm > slow * kSame) {
         out.rpm = std::max(slow, machine.spindle.min_rpm);
         notes.push_back(std::string(what) + ": the spindle slows to " +
                         decomp::decimal(out.rpm, 0) + "/min so that chips are cut, not rubbed");
