@@ -132,7 +132,8 @@ Json indices_json(const cam::check::Indices& indices) {
     return {{"a_deg", indices.a_degrees},
             {"covered_percent", indices.covered_percent},
             {"coverable_percent", indices.coverable_percent},
-            {"proved_smallest", indices.smallest}};
+            {"proved_smallest", indices.smallest},
+            {"at_least", indices.at_least}};
 }
 
 Json mill4_json(const Part& part, const Mill4Check& check) {
@@ -180,7 +181,9 @@ std::string indices_text(const cam::check::Indices& indices) {
         text += (i == 0 ? "A " : " ") + decomp::decimal(indices.a_degrees[i], 1) + " (" +
                 decomp::decimal(indices.covered_percent[i], 1) + ")";
     }
-    return text + (indices.smallest ? "" : " not proved smallest");
+    return text + (indices.smallest
+                       ? ""
+                       : " not proved smallest: at least " + std::to_string(indices.at_least));
 }
 
 Result<cam::check::Mill4Options> mill4_options(const CheckRequest& request, const Mill& mill) {

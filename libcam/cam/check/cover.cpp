@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/check/cover.h"
 
+#include "cam/check/cover_bound.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -9,16 +11,10 @@ namespace cam::check {
 
 namespace {
 
-constexpr int kBits = 64;
 constexpr double kSameGain = 1e-12;  // of everything
 
-struct Group {
-    std::uint64_t mask;
-    double weight;
-};
-
-std::vector<Group> groups_of(const std::vector<std::uint64_t>& masks,
-                             const std::vector<double>& weights) {
+std::vector<CoverGroup> groups_of(const std::vector<std::uint64_t>& masks,
+                                  const std::vector<double>& weights) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < masks.size(); ++i) {
         if (masks[i] != 0) {
@@ -27,7 +23,7 @@ std::vector<Group> groups_of(const std::vector<std::uint64_t>& masks,
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return masks[a] < masks[b]; });
-    std::vector<Group> groups;
+    std::vector<CoverGroup> groups;
     for (const std::size_t i : order) {
         if (groups.empty() || groups.back().mask != masks[i]) {
             groups.push_back({masks[i], 0});
@@ -37,25 +33,9 @@ std::vector<Group> groups_of(const std::vector<std::uint64_t>& masks,
     return groups;
 }
 
-using Gains = std::array<double, kBits>;
-
-/// What each bit would add to what `taken` covers.
-Gains gains_of(const std::vector<Group>& groups, std::uint64_t taken) {
-    Gains gains{};
-    for (const Group& group : groups) {
-        if ((group.mask & taken) != 0) {
-            continue;
-        }
-        for (std::uint64_t left = group.mask; left != 0; left &= left - 1) {
-            gains.at(static_cast<std::size_t>(__builtin_ctzll(left))) += group.weight;
-        }
-    }
-    return gains;
-}
-
-double covered_by(const std::vector<Group>& groups, std::uint64_t taken) {
+double covered_by(const std::vector<CoverGroup>& groups, std::uint64_t taken) {
     double sum = 0;
-    for (const Group& group : groups) {
+    for (const CoverGroup& group : groups) {
         sum += (group.mask & taken) != 0 ? group.weight : 0;
     }
     return sum;
@@ -63,7 +43,7 @@ double covered_by(const std::vector<Group>& groups, std::uint64_t taken) {
 
 std::vector<int> by_gain(const Gains& gains, double same) {
     std::vector<int> order;
-    for (int bit = 0; bit < kBits; ++bit) {
+    for (int bit = 0; bit < kCoverBits; ++bit) {
         if (gains.at(static_cast<std::size_t>(bit)) > same) {
             order.push_back(bit);
         }
@@ -74,7 +54,7 @@ std::vector<int> by_gain(const Gains& gains, double same) {
     return order;
 }
 
-std::vector<int> greedy(const std::vector<Group>& groups, double wanted, double same) {
+std::vector<int> greedy(const std::vector<CoverGroup>& groups, double wanted, double same) {
     std::vector<int> chosen;
     std::uint64_t taken = 0;
     double covered = 0;
@@ -92,72 +72,93 @@ std::vector<int> greedy(const std::vector<Group>& groups, double wanted, double 
 }
 
 /// Depth first over sets of a fixed size; gains only fall as a set grows, so the sum of the largest
-/// gains of today bounds what the places left can add.
+/// gains of today bounds what the places left can add, and so do the prices of cover_bound.h.
 class Search {
   public:
-    Search(const std::vector<Group>& groups, double wanted, double same, std::size_t budget)
+    Search(const std::vector<CoverGroup>& groups, double wanted, double same, std::size_t budget)
         : groups_(groups), wanted_(wanted), same_(same), budget_(budget) {}
 
     /// @return a set of `size` bits that covers enough, or none
     [[nodiscard]] std::vector<int> run(int size) {
         best_.clear();
         best_covered_ = wanted_;
+        const Prices prices = low_prices(groups_, {.size = size, .wanted = wanted_});
+        refuted_ = prices.bound < wanted_;
+        if (refuted_ || nodes_ > budget_) {
+            return best_;
+        }
+        priced_ = groups_;
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
+            priced_[g].weight = prices.price[g];
+        }
         std::vector<int> set;
         extend(set, 0, 0, 0, size);
+        refuted_ = best_.empty() && nodes_ <= budget_;
         return best_;
     }
 
-    [[nodiscard]] bool exhausted() const { return nodes_ <= budget_; }
+    /// Whether no set of the last size covers enough, for certain.
+    [[nodiscard]] bool refuted() const { return refuted_; }
 
   private:
+    /// What sets that hold `taken`, `left` more bits and none that is barred cover at most.
+    [[nodiscard]] double priced_bound(std::uint64_t taken, std::uint64_t barred, double covered,
+                                      int left) const {
+        double unpaid = 0;
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
+            unpaid += (groups_[g].mask & taken) == 0 ? groups_[g].weight - priced_[g].weight : 0;
+        }
+        return covered + unpaid + largest_sum(gains_of(priced_, taken), left, barred);
+    }
+
+    void take(const std::vector<int>& set, double covered) {
+        if (covered > best_covered_ || (best_.empty() && covered >= wanted_)) {
+            best_ = set;
+            best_covered_ = covered;
+        }
+    }
+
     void extend(std::vector<int>& set, std::uint64_t taken, std::uint64_t barred, double covered,
                 int left) {
         if (left == 0) {
-            if (covered > best_covered_ || (best_.empty() && covered >= wanted_)) {
-                best_ = set;
-                best_covered_ = covered;
-            }
+            take(set, covered);
             return;
         }
         if (++nodes_ > budget_) {
             return;
         }
-        Gains gains = gains_of(groups_, taken);
-        for (int bit = 0; bit < kBits; ++bit) {
-            if ((barred >> bit & 1U) != 0) {
-                gains.at(static_cast<std::size_t>(bit)) = 0;
-            }
+        if (left > 1 && priced_bound(taken, barred, covered, left) < best_covered_) {
+            return;
         }
-        const std::vector<int> order = by_gain(gains, same_);
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            double bound = covered;
-            for (std::size_t k = i; k < order.size() && k < i + static_cast<std::size_t>(left);
-                 ++k) {
-                bound += gains.at(static_cast<std::size_t>(order[k]));
+        const Gains gains = gains_of(groups_, taken);
+        for (const int bit : by_gain(gains, same_)) {
+            const double gain = gains.at(static_cast<std::size_t>(bit));
+            if ((barred >> bit & 1U) != 0) {
+                continue;
             }
-            if (bound < best_covered_ || nodes_ > budget_) {
+            if (covered + largest_sum(gains, left, barred) < best_covered_ || nodes_ > budget_) {
                 return;
             }
-            const std::uint64_t bit = std::uint64_t{1} << order[i];
-            set.push_back(order[i]);
-            extend(set, taken | bit, barred, covered + gains.at(static_cast<std::size_t>(order[i])),
-                   left - 1);
+            set.push_back(bit);
+            extend(set, taken | std::uint64_t{1} << bit, barred, covered + gain, left - 1);
             set.pop_back();
-            barred |= bit;  // sets with it have all been seen
+            barred |= std::uint64_t{1} << bit;  // sets with it have all been seen
         }
     }
 
-    const std::vector<Group>& groups_;
+    const std::vector<CoverGroup>& groups_;
+    std::vector<CoverGroup> priced_;
     double wanted_;
     double same_;
     std::size_t budget_;
     std::size_t nodes_ = 0;
+    bool refuted_ = false;
     std::vector<int> best_;
     double best_covered_ = 0;
 };
 
 /// The order in which each bit adds most, for the same set.
-std::vector<int> by_contribution(const std::vector<Group>& groups, std::vector<int> set) {
+std::vector<int> by_contribution(const std::vector<CoverGroup>& groups, std::vector<int> set) {
     std::sort(set.begin(), set.end());
     std::vector<int> out;
     std::uint64_t taken = 0;
@@ -177,7 +178,7 @@ std::vector<int> by_contribution(const std::vector<Group>& groups, std::vector<i
 
 Cover smallest_cover(const std::vector<std::uint64_t>& masks, const std::vector<double>& weights,
                      const CoverOptions& options) {
-    const std::vector<Group> groups = groups_of(masks, weights);
+    const std::vector<CoverGroup> groups = groups_of(masks, weights);
     Cover cover;
     cover.coverable = covered_by(groups, ~std::uint64_t{0});
     const double same = kSameGain * cover.coverable;
@@ -185,14 +186,17 @@ Cover smallest_cover(const std::vector<std::uint64_t>& masks, const std::vector<
     std::vector<int> best = greedy(groups, wanted, same);
     Search search(groups, wanted, same, options.most_nodes);
     // Sizes from below: the first that can be met is the smallest.
-    for (int size = 1; size <= static_cast<int>(best.size()) && search.exhausted(); ++size) {
-        const std::vector<int> found = search.run(size);
+    const auto most = static_cast<int>(best.size());
+    for (cover.at_least = std::min(1, most); cover.at_least <= most; ++cover.at_least) {
+        std::vector<int> found = search.run(cover.at_least);
         if (!found.empty()) {
-            best = found;
+            best = std::move(found);
+        }
+        if (cover.at_least == static_cast<int>(best.size()) || !search.refuted()) {
             break;
         }
     }
-    cover.smallest = search.exhausted();
+    cover.smallest = cover.at_least == static_cast<int>(best.size());
     cover.chosen = by_contribution(groups, best);
     std::uint64_t taken = 0;
     for (const int bit : cover.chosen) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/check/mill3.h"
 
+#include "cam/check/samples.h"
 #include "cam/orient/candidates.h"
 #include "cam/orient/overhang.h"
 #include "decomp/mesh/moments.h"
@@ -90,6 +91,8 @@ class Checker {
     Checker(const Part& part, const Sight& sight, const Mill3Options& options, const Run& run)
         : part_(part), sight_(sight), facets_(sight.facets()), options_(options), run_(run) {}
 
+    [[nodiscard]] const Facets& facets() const { return facets_; }
+
     [[nodiscard]] bool both() const { return options_.setups == Setups::Two; }
 
     void measure(Mill3Pose& pose) const {
@@ -116,14 +119,16 @@ class Checker {
         return sight_.seen_from_any(directions, Facing::Wall, run_);
     }
 
-    /// Facets that one tool reaches: by its cutter, and whole.
-    [[nodiscard]] Result<Reach> reached(const Mill3Pose& pose, const tool::Tool& tool) const {
+    /// Pieces of the surface that one tool reaches: by its cutter, and whole.
+    [[nodiscard]] Result<Reach> reached(const Samples& samples, const Mill3Pose& pose,
+                                        const tool::Tool& tool) const {
+        const Facets& pieces = samples.pieces;
         if (!both()) {
-            return tool_reach(part_.mesh, facets_, pose.direction, tool, options_.reach,
+            return tool_reach(part_.mesh, pieces, pose.direction, tool, options_.reach,
                               lowest_along(part_, pose.direction));
         }
-        auto up = tool_reach(part_.mesh, facets_, pose.direction, tool, options_.reach);
-        auto down = tool_reach(part_.mesh, facets_, -pose.direction, tool, options_.reach);
+        auto up = tool_reach(part_.mesh, pieces, pose.direction, tool, options_.reach);
+        auto down = tool_reach(part_.mesh, pieces, -pose.direction, tool, options_.reach);
         if (!up || !down) {
             return up ? down : up;
         }
@@ -156,6 +161,41 @@ std::size_t least(const std::vector<Mill3Pose>& poses, Value value) {
     return best;
 }
 
+/// Adds what the tools reach in the best pose.
+decomp::Status try_tools(const Checker& checker, const Part& part,
+                         const std::vector<tool::Tool>& tools, const Run& run, Mill3Check& out) {
+    if (tools.empty()) {
+        return {};
+    }
+    const std::size_t count = part.mesh.triangles.size();
+    const Samples samples =
+        sample_facets(part.mesh, checker.facets(), {.spacing_mm = sample_spacing_mm(tools)});
+    std::vector<char> together(samples.facet.size(), 0);
+    for (const tool::Tool& tool : tools) {
+        const auto reach = checker.reached(samples, out.poses[out.best], tool);
+        if (!reach) {
+            return decomp::fail(reach.error());
+        }
+        if (run.cancelled()) {
+            return decomp::cancelled();
+        }
+        const auto missed = [&](const std::vector<char>& by) {
+            return share_of(samples, count, [&](std::size_t i) {
+                return out.facets.base[samples.facet[i]] == 0 && by[i] == 0;
+            });
+        };
+        out.tools.push_back({tool.name, missed(reach->cutter), missed(reach->tool)});
+        for (std::size_t i = 0; i < together.size(); ++i) {
+            together[i] |= reach->tool[i];
+        }
+        out.unreached_together = missed(together);
+        if (out.facets.reached.empty()) {
+            out.facets.reached = mostly(samples, count, reach->tool);
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<Mill3Check> check_mill3(const Part& part, const Mill3Options& options,
@@ -181,27 +221,8 @@ Result<Mill3Check> check_mill3(const Part& part, const Mill3Options& options,
     out.facets.base = base_of(part, facets, best);
     out.facets.seen = checker.seen_in(best);
     out.unreached_together = best.unseen;
-    std::vector<char> together(facets.unit.size(), 0);
-    for (const tool::Tool& tool : tools) {
-        const auto reach = checker.reached(best, tool);
-        if (!reach) {
-            return decomp::fail(reach.error());
-        }
-        if (run.cancelled()) {
-            return decomp::cancelled();
-        }
-        const auto missed = [&](const std::vector<char>& by) {
-            return share_of(facets,
-                            [&](std::size_t i) { return out.facets.base[i] == 0 && by[i] == 0; });
-        };
-        out.tools.push_back({tool.name, missed(reach->cutter), missed(reach->tool)});
-        for (std::size_t i = 0; i < together.size(); ++i) {
-            together[i] |= reach->tool[i];
-        }
-        out.unreached_together = missed(together);
-        if (out.facets.reached.empty()) {
-            out.facets.reached = reach->tool;
-        }
+    if (const auto tried = try_tools(checker, part, tools, run, out); !tried) {
+        return decomp::fail(tried.error());
     }
     return out;
 }

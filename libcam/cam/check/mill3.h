@@ -47,7 +47,7 @@ struct ToolFigures {
 struct Mill3Facets {
     std::vector<char> base;
     std::vector<char> seen;     ///< by a ray
-    std::vector<char> reached;  ///< by the first tool; empty without tools
+    std::vector<char> reached;  ///< most of it by the first tool; empty without tools
 };
 
 struct Mill3Check {

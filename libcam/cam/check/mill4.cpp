@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/check/mill4.h"
 
+#include "cam/check/samples.h"
 #include "decomp/base/parallel.h"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ class Checker {
         if (!options_.find_indices) {
             return;
         }
-        const Cover cover = cover_of(masks_);
+        const Cover cover =
+            cover_of(masks_, facets_, [&](std::size_t i) { return out_.facets.end[i] != 0; });
         out_.indices = indices_of(cover);
         chosen_ = 0;
         for (const int bit : cover.chosen) {
@@ -95,55 +97,89 @@ class Checker {
         }
     }
 
-    decomp::Status try_tool(const tool::Tool& tool) {
-        const std::size_t count = facets_.unit.size();
-        std::vector<Result<Reach>> reaches(directions_.size(), Reach{});
-        decomp::for_each_index(run_, directions_.size(), [&](std::size_t j) {
-            reaches[j] = tool_reach(part_.mesh, facets_, directions_[j], tool, options_.reach);
-        });
-        std::vector<std::uint64_t> cutter(count, 0);
-        std::vector<std::uint64_t> whole(count, 0);
-        for (std::size_t j = 0; j < reaches.size(); ++j) {
-            if (!reaches[j]) {
-                return decomp::fail(reaches[j].error());
-            }
-            for (std::size_t i = 0; i < count && !reaches[j]->tool.empty(); ++i) {
-                cutter[i] |= std::uint64_t{reaches[j]->cutter[i] != 0} << j;
-                whole[i] |= std::uint64_t{reaches[j]->tool[i] != 0} << j;
-            }
+    decomp::Status try_tools(const std::vector<tool::Tool>& tools) {
+        if (tools.empty()) {
+            return {};
         }
-        if (run_.cancelled()) {
-            return decomp::cancelled();
-        }
-        const auto missed = [&](const std::vector<std::uint64_t>& masks, std::uint64_t at) {
-            return share(
-                [&](std::size_t i) { return out_.facets.end[i] == 0 && (masks[i] & at) == 0; });
-        };
-        const std::uint64_t all = ~std::uint64_t{0};
-        RotaryToolFigures figures;
-        figures.tool = tool.name;
-        figures.unreached_cutter = missed(cutter, all);
-        figures.unreached = missed(whole, all);
-        figures.unreached_at_indices = missed(whole, chosen_);
-        if (options_.find_indices) {
-            figures.indices = indices_of(cover_of(whole));
-        }
-        out_.tools.push_back(std::move(figures));
-        together_.resize(count, 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            together_[i] |= whole[i];
-        }
-        out_.unreached_together = missed(together_, all);
-        if (out_.facets.reached.empty()) {
-            out_.facets.reached.resize(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                out_.facets.reached[i] = whole[i] != 0 ? 1 : 0;
+        samples_ = sample_facets(part_.mesh, facets_, {.spacing_mm = sample_spacing_mm(tools)});
+        together_.assign(samples_.facet.size(), 0);
+        for (const tool::Tool& tool : tools) {
+            if (const auto tried = try_tool(tool); !tried) {
+                return tried;
             }
         }
         return {};
     }
 
   private:
+    /// Bit j of a piece: reached from direction j.
+    struct ReachMasks {
+        std::vector<std::uint64_t> cutter;
+        std::vector<std::uint64_t> whole;
+    };
+
+    [[nodiscard]] Result<ReachMasks> masks_of(const tool::Tool& tool) const {
+        const std::size_t count = samples_.facet.size();
+        std::vector<Result<Reach>> reaches(directions_.size(), Reach{});
+        decomp::for_each_index(run_, directions_.size(), [&](std::size_t j) {
+            reaches[j] =
+                tool_reach(part_.mesh, samples_.pieces, directions_[j], tool, options_.reach);
+        });
+        ReachMasks masks;
+        masks.cutter.assign(count, 0);
+        masks.whole.assign(count, 0);
+        for (std::size_t j = 0; j < reaches.size(); ++j) {
+            if (!reaches[j]) {
+                return decomp::fail(reaches[j].error());
+            }
+            for (std::size_t i = 0; i < count && !reaches[j]->tool.empty(); ++i) {
+                masks.cutter[i] |= std::uint64_t{reaches[j]->cutter[i] != 0} << j;
+                masks.whole[i] |= std::uint64_t{reaches[j]->tool[i] != 0} << j;
+            }
+        }
+        if (run_.cancelled()) {
+            return decomp::cancelled();
+        }
+        return masks;
+    }
+
+    decomp::Status try_tool(const tool::Tool& tool) {
+        const auto masks = masks_of(tool);
+        if (!masks) {
+            return decomp::fail(masks.error());
+        }
+        const std::vector<std::uint64_t>& whole = masks->whole;
+        const std::size_t facet_count = facets_.unit.size();
+        const auto missed = [&](const std::vector<std::uint64_t>& by, std::uint64_t at) {
+            return share_of(samples_, facet_count, [&](std::size_t i) {
+                return out_.facets.end[samples_.facet[i]] == 0 && (by[i] & at) == 0;
+            });
+        };
+        const std::uint64_t all = ~std::uint64_t{0};
+        RotaryToolFigures figures;
+        figures.tool = tool.name;
+        figures.unreached_cutter = missed(masks->cutter, all);
+        figures.unreached = missed(whole, all);
+        figures.unreached_at_indices = missed(whole, chosen_);
+        if (options_.find_indices) {
+            figures.indices = indices_of(cover_of(whole, samples_.pieces, [&](std::size_t i) {
+                return out_.facets.end[samples_.facet[i]] != 0;
+            }));
+        }
+        out_.tools.push_back(std::move(figures));
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            together_[i] |= whole[i];
+        }
+        out_.unreached_together = missed(together_, all);
+        if (out_.facets.reached.empty()) {
+            std::vector<char> reached(whole.size());
+            std::transform(whole.begin(), whole.end(), reached.begin(),
+                           [](std::uint64_t mask) { return static_cast<char>(mask != 0 ? 1 : 0); });
+            out_.facets.reached = mostly(samples_, facet_count, reached);
+        }
+        return {};
+    }
+
     template <class Belongs>
     [[nodiscard]] Share share(Belongs belongs) const {
         return share_of(facets_, belongs);
@@ -157,17 +193,18 @@ class Checker {
     }
 
     /// Ends need no index; others one that does not graze them, if there is one.
-    [[nodiscard]] Cover cover_of(std::vector<std::uint64_t> masks) const {
+    template <class IsEnd>
+    [[nodiscard]] Cover cover_of(std::vector<std::uint64_t> masks, const Facets& of,
+                                 IsEnd is_end) const {
         for (std::size_t i = 0; i < masks.size(); ++i) {
             std::uint64_t good = 0;
             for (std::size_t j = 0; j < directions_.size(); ++j) {
-                good |= std::uint64_t{facets_.unit[i].dot(directions_[j]) >= options_.good_cosine}
-                        << j;
+                good |= std::uint64_t{of.unit[i].dot(directions_[j]) >= options_.good_cosine} << j;
             }
             good &= masks[i];
-            masks[i] = out_.facets.end[i] != 0 ? 0 : good != 0 ? good : masks[i];
+            masks[i] = is_end(i) ? 0 : good != 0 ? good : masks[i];
         }
-        return smallest_cover(masks, facets_.area_mm2, options_.cover);
+        return smallest_cover(masks, of.area_mm2, options_.cover);
     }
 
     [[nodiscard]] Indices indices_of(const Cover& cover) const {
@@ -181,6 +218,7 @@ class Checker {
         }
         indices.coverable_percent = percent * cover.coverable;
         indices.smallest = cover.smallest;
+        indices.at_least = cover.at_least;
         return indices;
     }
 
@@ -193,7 +231,8 @@ class Checker {
     Eigen::Vector3d axis_;
     std::vector<Eigen::Vector3d> directions_;
     std::vector<std::uint64_t> masks_;
-    std::vector<std::uint64_t> together_;  // of all tools
+    Samples samples_;
+    std::vector<std::uint64_t> together_;  // of all tools, a mask a piece
     std::uint64_t chosen_ = 0;
 };
 
@@ -206,7 +245,9 @@ Result<Mill4Check> check_mill4(const Part& part, const Mill4Options& options,
                             "give three numbers that are not all 0, e.g. --axis 0,0,1");
     }
     const Facets facets = decomp::mesh::measure_facets(part.mesh);
-    const auto sight = Sight::of(part.mesh, facets);
+    const bool few_rays = options.axis && !options.find_indices;
+    const auto sight =
+        Sight::of(part.mesh, facets, few_rays ? visibility::Tree::Quick : visibility::Tree::Fine);
     if (!sight) {
         return decomp::fail(sight.error());
     }
@@ -226,10 +267,8 @@ Result<Mill4Check> check_mill4(const Part& part, const Mill4Options& options,
     Checker checker(part, *sight, options, run, out);
     checker.see();
     checker.find_indices();
-    for (const tool::Tool& tool : tools) {
-        if (const auto tried = checker.try_tool(tool); !tried) {
-            return decomp::fail(tried.error());
-        }
+    if (const auto tried = checker.try_tools(tools); !tried) {
+        return decomp::fail(tried.error());
     }
     if (run.cancelled()) {
         return decomp::cancelled();

@@ -37,6 +37,7 @@ struct Indices {
     std::vector<double> covered_percent;  ///< of the part's area, after each of them
     double coverable_percent = 0;         ///< with all angles
     bool smallest = false;                ///< proved: no smaller set does it
+    int at_least = 0;                     ///< proved: no set of fewer does it
 };
 
 /// What one tool does about the chosen axis.
@@ -54,7 +55,7 @@ struct Mill4Facets {
     std::vector<char> hidden_end;  ///< of them, those counted by `ends_unseen`
     std::vector<char> seen;        ///< by a ray, from some angle
     std::vector<int> index;        ///< which of `indices` sees it first; -1: none
-    std::vector<char> reached;     ///< by the first tool, from some angle; empty without tools
+    std::vector<char> reached;     ///< most of it by the first tool, from some angle; or empty
 };
 
 /// A part about one rotary axis. `unseen.by_facets_percent` is %4AM of the paper (7.3: ends not

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace cam::check {
 
@@ -182,16 +183,24 @@ ReachOptions reach_options(const profile::MillMachine& machine) {
             .holder_clearance_mm = machine.reach.holder_clearance_mm};
 }
 
-Result<Reach> tool_reach(const TriMesh& mesh, const Facets& facets,
+double sample_spacing_mm(const std::vector<tool::Tool>& tools) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const tool::Tool& tool : tools) {
+        least = std::min(least, tool.radius_mm());
+    }
+    return least;
+}
+
+Result<Reach> tool_reach(const TriMesh& mesh, const Facets& points,
                          const Eigen::Vector3d& direction, const tool::Tool& tool,
                          const ReachOptions& options, std::optional<double> floor_mm) {
     const Eigen::Matrix3d frame = frame_looking_down(direction);
-    std::vector<Eigen::Vector3d> points;
-    points.reserve(mesh.points.size());
+    std::vector<Eigen::Vector3d> turned;
+    turned.reserve(mesh.points.size());
     for (const Eigen::Vector3d& point : mesh.points) {
-        points.emplace_back(frame * point);
+        turned.emplace_back(frame * point);
     }
-    auto map = raster(mesh, points,
+    auto map = raster(mesh, turned,
                       {.cell_mm = options.cell_mm,
                        .border_mm = tool.radius_mm() + options.tolerance_mm + 2 * options.cell_mm});
     if (!map) {
@@ -203,14 +212,15 @@ Result<Reach> tool_reach(const TriMesh& mesh, const Facets& facets,
         }
     }
     Reach reach;
-    reach.cutter.assign(mesh.triangles.size(), 0);
-    reach.tool.assign(mesh.triangles.size(), 0);
+    const std::size_t count = points.unit.size();
+    reach.cutter.assign(count, 0);
+    reach.tool.assign(count, 0);
     const Tips tips = tips_of(*map, tool, options);
     const Judge judge(*map, tips, tool);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Eigen::Vector3d normal = frame * facets.unit[i];
-        if (normal.z() >= -kWall && facets.area_mm2[i] > 0) {
-            judge.judge(frame * facets.centre[i] + options.tolerance_mm * normal, normal,
+    for (std::size_t i = 0; i < count; ++i) {
+        const Eigen::Vector3d normal = frame * points.unit[i];
+        if (normal.z() >= -kWall && points.area_mm2[i] > 0) {
+            judge.judge(frame * points.centre[i] + options.tolerance_mm * normal, normal,
                         reach.cutter[i], reach.tool[i]);
         }
     }

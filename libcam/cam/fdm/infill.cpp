@@ -59,7 +59,21 @@ class LineFill {
         return chains();
     }
 
+    std::vector<Line> lines_in_order() {
+        find_crossings();
+        pair_crossings();
+        find_cells();
+        return sweep();
+    }
+
   private:
+    /// A run of lines one above the other, each with the next as its only neighbour.
+    struct Cell {
+        std::vector<std::size_t> lines;  ///< bottom up, as positions of their left ends in sorted_
+        std::size_t below = 0;           ///< cells that must be printed before
+        std::vector<std::size_t> above;
+    };
+
     /// In the order of the boundary: loop by loop, edge by edge, along each edge.
     void find_crossings() {
         const double angle = pattern_.angle.radians();
@@ -212,16 +226,161 @@ class LineFill {
         return out;
     }
 
+    // === in order
+
+    [[nodiscard]] long row_of(std::size_t line) const { return crossings_[sorted_[line]].row; }
+
+    [[nodiscard]] double left(std::size_t line) const { return crossings_[sorted_[line]].along; }
+
+    [[nodiscard]] double right(std::size_t line) const {
+        return crossings_[sorted_[line + 1]].along;
+    }
+
+    /// Lines of the next row that lie beside a line, per line: both lists run along the rows.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> neighbours_above() const {
+        std::vector<std::vector<std::size_t>> out(sorted_.size() / 2);
+        std::size_t upper = 0;
+        for (std::size_t line = 0; line + 1 < sorted_.size(); line += 2) {
+            const long row = row_of(line);
+            while (
+                upper + 1 < sorted_.size() &&
+                (row_of(upper) <= row || (row_of(upper) == row + 1 && right(upper) < left(line)))) {
+                upper += 2;
+            }
+            for (std::size_t u = upper;
+                 u + 1 < sorted_.size() && row_of(u) == row + 1 && left(u) <= right(line); u += 2) {
+                out[line / 2].push_back(u);
+            }
+        }
+        return out;
+    }
+
+    void find_cells() {
+        const auto above = neighbours_above();
+        std::vector<std::size_t> count_below(above.size(), 0);
+        for (const auto& list : above) {
+            for (const std::size_t u : list) {
+                ++count_below[u / 2];
+            }
+        }
+        std::vector<std::size_t> cell_of(above.size(), kNone);
+        for (std::size_t line = 0; line + 1 < sorted_.size(); line += 2) {
+            if (cell_of[line / 2] == kNone) {
+                cell_of[line / 2] = cells_.size();
+                cells_.emplace_back();
+            }
+            const std::size_t cell = cell_of[line / 2];
+            cells_[cell].lines.push_back(line);
+            const auto& up = above[line / 2];
+            if (up.size() == 1 && count_below[up.front() / 2] == 1) {
+                cell_of[up.front() / 2] = cell;
+            }
+        }
+        for (std::size_t line = 0; line < above.size(); ++line) {
+            for (const std::size_t u : above[line]) {
+                if (cell_of[u / 2] != cell_of[line]) {
+                    cells_[cell_of[line]].above.push_back(cell_of[u / 2]);
+                    ++cells_[cell_of[u / 2]].below;
+                }
+            }
+        }
+    }
+
+    /// The boundary between the ends on one side of two lines, when it leads from one to the other
+    /// on a short way.
+    [[nodiscard]] bool link(std::size_t from, std::size_t to) {
+        for (const bool forward : {true, false}) {
+            const std::size_t first = forward ? from : to;
+            const std::size_t last = forward ? to : from;
+            const bool next = last == first + 1 && crossings_[first].loop == crossings_[last].loop;
+            const bool round = last < first && crossings_[first].loop == crossings_[last].loop &&
+                               (last == 0 || crossings_[last - 1].loop != crossings_[last].loop) &&
+                               (first + 1 == crossings_.size() ||
+                                crossings_[first + 1].loop != crossings_[first].loop);
+            if ((next || round) &&
+                way_mm(crossings_[first], crossings_[last]) <= pattern_.max_link_mm) {
+                crossings_[from].link = to;
+                crossings_[from].link_forward = forward;
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// The lines of a cell from the bottom up, begun at the end of the first that is nearer.
+    void append_cell(const Cell& cell, Vector2d& at, std::vector<Line>& out) {
+        std::size_t begin = sorted_[cell.lines.front()];
+        std::size_t end = sorted_[cell.lines.front() + 1];
+        if ((point(crossings_[end]) - at).squaredNorm() <
+            (point(crossings_[begin]) - at).squaredNorm()) {
+            std::swap(begin, end);
+        }
+        out.push_back({point(crossings_[begin]), point(crossings_[end])});
+        bool leftwards = end == sorted_[cell.lines.front()];
+        for (std::size_t k = 1; k < cell.lines.size(); ++k) {
+            begin = sorted_[cell.lines[k] + (leftwards ? 0 : 1)];
+            if (link(end, begin)) {
+                append_link(crossings_[end], out.back());
+            } else {
+                out.emplace_back();
+            }
+            end = crossings_[begin].partner;
+            out.back().push_back(point(crossings_[begin]));
+            out.back().push_back(point(crossings_[end]));
+            leftwards = !leftwards;
+        }
+        at = point(crossings_[end]);
+    }
+
+    /// Of the cells all of whose lower neighbours are printed, the nearest first.
+    [[nodiscard]] std::vector<Line> sweep() {
+        std::vector<Line> out;
+        std::vector<std::size_t> ready;
+        for (std::size_t c = 0; c < cells_.size(); ++c) {
+            if (cells_[c].below == 0) {
+                ready.push_back(c);
+            }
+        }
+        Vector2d at = cells_.empty() ? Vector2d(0, 0) : point(crossings_[sorted_.front()]);
+        while (!ready.empty()) {
+            const auto nearest =
+                std::min_element(ready.begin(), ready.end(), [&](std::size_t a, std::size_t b) {
+                    return std::pair(distance(a, at), a) < std::pair(distance(b, at), b);
+                });
+            const std::size_t now = *nearest;
+            ready.erase(nearest);
+            append_cell(cells_[now], at, out);
+            for (const std::size_t up : cells_[now].above) {
+                if (--cells_[up].below == 0) {
+                    ready.push_back(up);
+                }
+            }
+        }
+        return out;
+    }
+
+    /// To the nearer end of the cell's first line, squared.
+    [[nodiscard]] double distance(std::size_t cell, const Vector2d& at) const {
+        const std::size_t first = cells_[cell].lines.front();
+        return std::min((point(crossings_[sorted_[first]]) - at).squaredNorm(),
+                        (point(crossings_[sorted_[first + 1]]) - at).squaredNorm());
+    }
+
     FillPattern pattern_;
     std::vector<Line> loops_;
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> sorted_;  ///< crossings by row, then along it
+    std::vector<Cell> cells_;
 };
 
 }  // namespace
 
 std::vector<Line> fill_with_lines(const Paths& region, const FillPattern& pattern) {
     return LineFill(region, pattern).lines();
+}
+
+std::vector<Line> fill_in_order(const Paths& region, const FillPattern& pattern) {
+    return LineFill(region, pattern).lines_in_order();
 }
 
 }  // namespace cam::fdm

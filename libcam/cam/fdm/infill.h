@@ -26,4 +26,10 @@ struct FillPattern {
 [[nodiscard]] std::vector<Line> fill_with_lines(const polygon::Paths& region,
                                                 const FillPattern& pattern);
 
+/// The same lines in the order of printing: none is laid before the one below it, so that all of a
+/// surface is swept in one direction and shines alike. Zigzags as long as the region lets them; do
+/// not turn them round.
+[[nodiscard]] std::vector<Line> fill_in_order(const polygon::Paths& region,
+                                              const FillPattern& pattern);
+
 }  // namespace cam::fdm

@@ -261,9 +261,11 @@ class LayerBeads {
     /// @param flow  plastic per plastic that fills the layer
     void add_fill(Feature feature, const Paths& area, const FillPattern& pattern, double flow = 1) {
         const Paths room = fill_room(area);
-        for (Line& line : fill_with_lines(room, pattern)) {
+        const bool seen = feature == Feature::TopSkin;
+        for (Line& line : seen ? fill_in_order(room, pattern) : fill_with_lines(room, pattern)) {
             IslandBeads& island = island_of(line.front());
-            Bead& one = island.fill.emplace_back(bead(feature, std::move(line)));
+            Bead& one =
+                (seen ? island.top : island.fill).emplace_back(bead(feature, std::move(line)));
             one.width_mm += (flow - 1) * layer_.bead.spacing_mm();
         }
         const Paths scraps = polygon::subtract(area, polygon::offset(room, fill_inset_mm()));

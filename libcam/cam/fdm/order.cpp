@@ -131,7 +131,7 @@ void append(std::vector<Bead> beads, Vector2d& at, std::vector<Bead>& out) {
 double squared_distance(const IslandBeads& island, const Vector2d& at) {
     double least = -1;
     for (const auto* beads :
-         {&island.inner_walls, &island.outer_walls, &island.gaps, &island.fill}) {
+         {&island.inner_walls, &island.outer_walls, &island.gaps, &island.fill, &island.top}) {
         for (const Bead& bead : *beads) {
             for (const Vector2d& p : bead.points) {
                 const double d = squared(p, at);
@@ -188,6 +188,7 @@ std::vector<Bead> ordered(std::vector<IslandBeads> islands, const Vector2d& star
         }
         append(ordered_by_travel(std::move(island.gaps), at), at, out);
         append(ordered_by_travel(std::move(island.fill), at), at, out);
+        append(std::move(island.top), at, out);
     }
     return out;
 }

@@ -15,6 +15,7 @@ struct IslandBeads {
     std::vector<path::Bead> outer_walls;
     std::vector<path::Bead> gaps;  ///< single beads in thin walls and between walls
     std::vector<path::Bead> fill;
+    std::vector<path::Bead> top;  ///< in the order and direction of printing, after the rest
 };
 
 /// Whether outer walls begin where they are said to, or wherever is nearest.

@@ -17,11 +17,17 @@ using path::Bead;
 using path::Feature;
 
 constexpr double kShortestMm = 1.0;
+constexpr double kSampleMm = 0.5;  // between two looks along a wall
 
-/// A stretch of a bead that lies over something, or over air, from end to end.
+/// Quarters of a wall's width over air, rounded down: 0 .. 3.
+using Level = int;
+constexpr Level kHalf = 2;
+constexpr Level kMost = 3;
+
+/// A stretch of a bead of one level from end to end.
 struct Stretch {
     std::vector<Vector2d> points;
-    bool over_air = false;
+    Level level = 0;
     double length_mm = 0;
 
     void go_to(const Vector2d& p) {
@@ -32,47 +38,103 @@ struct Stretch {
             points.push_back(p);
         }
     }
+
+    void go_along(const std::vector<Vector2d>& others) {
+        for (const Vector2d& p : others) {
+            go_to(p);
+        }
+    }
 };
 
-std::vector<Stretch> stretches_of(const Bead& bead, const EdgeGrid& below) {
-    std::vector<Stretch> out(1);
-    out.back().over_air = !below.contains(bead.points.front());
-    out.back().go_to(bead.points.front());
-    for (std::size_t i = 0; i + 1 < bead.points.size(); ++i) {
-        for (const Meeting& m : below.meetings(bead.points[i], bead.points[i + 1])) {
-            out.back().go_to(m.point.at_mm);
-            Stretch next;
-            next.over_air = !out.back().over_air;
-            next.go_to(m.point.at_mm);
-            out.push_back(std::move(next));
+/// Walks along one bead.
+class Walk {
+  public:
+    Walk(const Bead& bead, const EdgeGrid& below) : bead_(bead), below_(below) {}
+
+    std::vector<Stretch> stretches() {
+        over_air_ = !below_.contains(bead_.points.front());
+        at_ = bead_.points.front();
+        for (std::size_t i = 0; i + 1 < bead_.points.size(); ++i) {
+            for (const Meeting& m : below_.meetings(bead_.points[i], bead_.points[i + 1])) {
+                walk_to(m.point.at_mm);
+                over_air_ = !over_air_;
+            }
+            walk_to(bead_.points[i + 1]);
         }
-        out.back().go_to(bead.points[i + 1]);
+        return std::move(out_);
+    }
+
+  private:
+    /// Straight, on one side of what lies below.
+    void walk_to(const Vector2d& to) {
+        const Vector2d from = at_;
+        const int steps = 1 + static_cast<int>((to - from).norm() / kSampleMm);
+        for (int k = 0; k < steps; ++k) {
+            const Level level = level_at(from + (to - from) * ((k + 0.5) / steps));
+            const Vector2d start = from + (to - from) * (static_cast<double>(k) / steps);
+            if (out_.empty() || out_.back().level != level) {
+                if (!out_.empty()) {
+                    out_.back().go_to(start);
+                }
+                out_.emplace_back().level = level;
+                out_.back().go_to(start);
+            }
+        }
+        out_.back().go_to(to);
+        at_ = to;
+    }
+
+    [[nodiscard]] Level level_at(const Vector2d& p) const {
+        const bool near = below_.nearest(p, bead_.width_mm / 4).has_value();
+        return over_air_ ? (near ? kHalf : kMost) : (near ? 1 : 0);
+    }
+
+    const Bead& bead_;
+    const EdgeGrid& below_;
+    Vector2d at_ = Vector2d::Zero();
+    bool over_air_ = false;
+    std::vector<Stretch> out_;
+};
+
+std::vector<Stretch> joined(std::vector<Stretch> stretches) {
+    std::vector<Stretch> out;
+    for (Stretch& s : stretches) {
+        if (out.empty() || out.back().level != s.level) {
+            out.push_back(std::move(s));
+        } else {
+            out.back().go_along(s.points);
+        }
     }
     return out;
 }
 
-/// Short stretches over something between two over air join them, then short ones over air their
-/// neighbours.
+/// Short dips between worse stretches are taken for as bad as the better of these, then short
+/// stretches go with the neighbour that is most like them.
 std::vector<Stretch> without_short_ones(std::vector<Stretch> stretches) {
-    for (const bool over_air : {false, true}) {
-        for (Stretch& s : stretches) {
-            if (s.over_air == over_air && s.length_mm < kShortestMm) {
-                s.over_air = !over_air;
-            }
-        }
-        std::vector<Stretch> joined;
-        for (Stretch& s : stretches) {
-            if (joined.empty() || joined.back().over_air != s.over_air) {
-                joined.push_back(std::move(s));
+    for (const bool dips : {true, false}) {
+        for (std::size_t i = 0; i < stretches.size() && stretches.size() > 1; ++i) {
+            Stretch& s = stretches[i];
+            if (s.length_mm >= kShortestMm) {
                 continue;
             }
-            for (const Vector2d& p : s.points) {
-                joined.back().go_to(p);
+            const Level before = stretches[i > 0 ? i - 1 : i + 1].level;
+            const Level after = stretches[i + 1 < stretches.size() ? i + 1 : i - 1].level;
+            const auto [low, high] = std::minmax(before, after);
+            if (dips) {
+                s.level = std::max(s.level, low);
+            } else {
+                s.level = high - s.level <= s.level - low || s.level >= high ? high : low;
             }
         }
-        stretches = std::move(joined);
+        stretches = joined(std::move(stretches));
     }
     return stretches;
+}
+
+decomp::Speed slowed(decomp::Speed own, decomp::Speed least, Level level) {
+    const double v = own.mm_per_s();
+    const double low = std::min(v, least.mm_per_s());
+    return decomp::Speed::mm_per_s(v - (v - low) * level / kMost);
 }
 
 }  // namespace
@@ -87,8 +149,8 @@ std::vector<Bead> with_overhangs(std::vector<Bead> beads, const polygon::Paths& 
             out.push_back(std::move(bead));
             continue;
         }
-        std::vector<Stretch> stretches = without_short_ones(stretches_of(bead, grid));
-        if (stretches.size() == 1 && !stretches.front().over_air) {
+        std::vector<Stretch> stretches = without_short_ones(Walk(bead, grid).stretches());
+        if (stretches.size() == 1 && stretches.front().level == 0) {
             out.push_back(std::move(bead));
             continue;
         }
@@ -98,9 +160,9 @@ std::vector<Bead> with_overhangs(std::vector<Bead> beads, const polygon::Paths& 
             }
             Bead& piece = out.emplace_back(bead);
             piece.points = std::move(s.points);
-            if (s.over_air) {
+            piece.speed = slowed(piece.speed, speed, s.level);
+            if (s.level >= kHalf) {
                 piece.feature = Feature::OverhangWall;
-                piece.speed = std::min(piece.speed, speed);
             }
         }
     }

@@ -9,9 +9,10 @@
 
 namespace cam::fdm {
 
-/// Cuts walls where they leave what lies below and come back to it; the stretches in between, over
-/// air by more than half their width, become overhang walls of their own speed. Stretches shorter
-/// than a millimetre stay as they are. The pieces follow each other without a travel.
+/// Cuts walls where their share over air passes a quarter, a half and three quarters of their
+/// width; from piece to piece the speed falls in even steps from the wall's own to `speed`. Those
+/// over air by more than half become overhang walls. Stretches shorter than a millimetre go with
+/// their neighbours. The pieces follow each other without a travel.
 [[nodiscard]] std::vector<path::Bead> with_overhangs(std::vector<path::Bead> beads,
                                                      const polygon::Paths& below,
                                                      decomp::Speed speed);

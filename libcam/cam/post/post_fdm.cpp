@@ -2,6 +2,7 @@
 #include "cam/post/post_fdm.h"
 
 #include "cam/motion/cooling.h"
+#include "cam/motion/estimate.h"
 #include "cam/motion/moves.h"
 #include "cam/post/gcode_writer.h"
 #include "cam/profile/template.h"
@@ -162,6 +163,7 @@ class Poster {
         motion::trace(stack_, setup_, [&](const motion::Move& move) {
             if (!run.cancelled()) {
                 print(move);
+                progress(move);
             }
         });
         if (run.cancelled()) {
@@ -246,8 +248,6 @@ class Poster {
         }
         fan_runs_ = static_cast<long>(index) >= material.fan_from_layer;
         set_fan(fan_runs_ ? material.fan_fraction : 0);
-        progress();
-        seconds_ += estimate_.layer_seconds[index];
         if (!setup_.machine.templates.layer.empty()) {
             profile::TemplateValues values = values_;
             values["layer"] = static_cast<double>(index);
@@ -257,16 +257,31 @@ class Poster {
         }
     }
 
-    /// The first and the last hundredth belong to the templates: some firmwares begin and end the
-    /// build there.
-    void progress() {
+    /// Tells the progress where it changes in what the firmware is told. The first and the last
+    /// hundredth belong to the templates: some firmwares begin and end the build there.
+    void progress(const motion::Move& move) {
+        const std::size_t piece = pieces_.piece_of(move);
+        if (piece == piece_) {
+            return;
+        }
+        for (; told_ < piece; ++told_) {
+            seconds_ += estimate_.piece_seconds[told_];
+        }
+        piece_ = piece;
         const double share = estimate_.seconds > 0 ? seconds_ / estimate_.seconds : 0;
         const int percent = std::clamp(static_cast<int>(100 * share), 1, 99);
-        if (percent != percent_) {
-            percent_ = percent;
-            const double left = std::round((estimate_.seconds - seconds_) / 60);
-            template_text(setup_.dialect.progress,
-                          {{"percent", static_cast<double>(percent)}, {"minutes_left", left}});
+        const auto left = static_cast<int>(std::lround((estimate_.seconds - seconds_) / 60));
+        if (percent == percent_ && left == minutes_left_) {
+            return;
+        }
+        percent_ = percent;
+        minutes_left_ = left;
+        const profile::TemplateValues values = {{"percent", static_cast<double>(percent)},
+                                                {"minutes_left", static_cast<double>(left)}};
+        const Result<std::string> words = profile::expand(setup_.dialect.progress, values);
+        if (!words || *words != progress_) {  // a dialect without minutes
+            template_text(setup_.dialect.progress, values);
+            progress_ = words ? *words : std::string();
         }
     }
 
@@ -347,8 +362,13 @@ class Poster {
     bool fan_runs_ = false;             ///< in the layer at hand
     double fan_ = -1;                   ///< unknown after the start template
     bool filament_known_;               ///< what E stands at
-    double seconds_ = 0;                ///< until the layer at hand
+    motion::PieceCounter pieces_;
+    std::size_t piece_ = ~std::size_t{0};  ///< at hand
+    std::size_t told_ = 0;                 ///< pieces whose time is in seconds_
+    double seconds_ = 0;                   ///< until the piece at hand
     int percent_ = 0;
+    int minutes_left_ = -1;
+    std::string progress_;  ///< as it was last told
     std::optional<decomp::Error> error_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/tool/tool.h"
 
+#include "cam/tool/outline.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,64 +23,6 @@ constexpr std::array<std::pair<Shape, std::string_view>, 6> kNames = {
      {Shape::TaperedBall, "tapered-ball"},
      {Shape::V, "v"},
      {Shape::Drill, "drill"}}};
-
-/// Every cutting surface here is a flat or round tip, then a cone, then a cylinder:
-///
-///          |        cylinder, radius R
-///         /         cone, leaning `lean` from the axis
-///     (__/          corner of radius `corner`, tangent to the cone, around a flat of radius `flat`
-struct Outline {
-    double flat = 0;
-    double corner = 0;
-    double lean = 0;  ///< 0: no cone, the corner runs into the cylinder
-    bool cone = false;
-    double radius = 0;
-
-    /// Tilt of the surface at which the corner ends.
-    [[nodiscard]] double corner_tilt() const { return std::numbers::pi / 2 - lean; }
-
-    [[nodiscard]] double corner_end_r() const { return flat + corner * std::cos(lean); }
-
-    [[nodiscard]] double corner_end_z() const { return corner * (1 - std::sin(lean)); }
-
-    [[nodiscard]] double height(double r) const {
-        if (r <= flat) {
-            return 0;
-        }
-        const double beyond = r - flat;
-        if (beyond <= corner * std::cos(lean)) {
-            return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
-        }
-        return cone ? corner_end_z() + (r - corner_end_r()) / std::tan(lean) : corner;
-    }
-};
-
-Outline outline_of(const Tool& tool) {
-    const double radius = tool.radius_mm();
-    switch (tool.shape) {
-        case Shape::Flat:
-            return {.flat = radius, .radius = radius};
-        case Shape::Ball:
-            return {.corner = radius, .radius = radius};
-        case Shape::BullNose:
-            return {.flat = radius - tool.corner_radius_mm,
-                    .corner = tool.corner_radius_mm,
-                    .radius = radius};
-        case Shape::TaperedBall:
-            return {.corner = tool.tip_diameter_mm / 2,
-                    .lean = tool.taper.radians(),
-                    .cone = true,
-                    .radius = radius};
-        case Shape::V:
-            return {.flat = tool.tip_diameter_mm / 2,
-                    .lean = tool.point.radians() / 2,
-                    .cone = true,
-                    .radius = radius};
-        case Shape::Drill:
-            return {.lean = tool.point.radians() / 2, .cone = true, .radius = radius};
-    }
-    return {.flat = radius, .radius = radius};
-}
 
 class Sentences {
   public:

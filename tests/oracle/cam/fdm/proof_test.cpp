@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cam/fdm/plan_part.h"
-#include "cam/fdm/plate_layers.h"
-#include "cam/post/post_fdm.h"
-#include "cam/verify/verify.h"
-#include "decomp/base/rng.h"
-#include "decomp/mesh/measure.h"
+#include "tests/oracle/cam/fdm/proof_of.h"
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 /// The proof as an oracle of planning: it re-reads the program, slices the mesh by itself and
 /// compares.
@@ -18,6 +12,7 @@ namespace {
 
 using cam::verify::Proof;
 using tests::box;
+using tests::proof_of;
 using tests::TriMesh;
 
 /// Half a ball with waves, flat base, on the bed.
@@ -56,29 +51,6 @@ TriMesh raised(TriMesh mesh, double by_mm) {
         p.z() += by_mm;
     }
     return mesh;
-}
-
-/// The program of one part in the middle of the bed, proved.
-Proof proof_of(const TriMesh& part, const std::vector<std::string>& settings = {},
-               const std::vector<bool>& mating = {}) {
-    const auto setup = cam::profile::read_fdm_setup(
-        HEW_SOURCE_DIR "/machine_profiles/fdm/prusa-mk3s.toml", {}, settings);
-    EXPECT_TRUE(setup) << (setup ? "" : setup.error().text());
-    const auto stack = cam::fdm::plan_part(part, mating, *setup, {});
-    EXPECT_TRUE(stack) << (stack ? "" : stack.error().text());
-    const auto& chamber = setup->machine.chamber;
-    const Eigen::Vector3d middle = (chamber.min_mm + chamber.max_mm) / 2;
-    const auto plate = cam::fdm::merge_layers({{&*stack, middle.head<2>()}}, *setup);
-    const auto program = cam::post::post_fdm(plate, *setup, {"part"}, {});
-    EXPECT_TRUE(program) << (program ? "" : program.error().text());
-    TriMesh placed = part;
-    for (auto& p : placed.points) {
-        p.head<2>() += middle.head<2>();
-    }
-    const auto proof =
-        cam::verify::examine(program->text, {{"part", placed, mating}}, *setup, {}, {});
-    EXPECT_TRUE(proof) << (proof ? "" : proof.error().text());
-    return *proof;
 }
 
 void expect_good(const Proof& proof) {
@@ -136,35 +108,6 @@ TEST(ProofOfPlan, CompensationsAreWhatTheProofExpects) {
         const auto proof = proof_of(plate, {"process.elephant_foot_mm=0.3",
                                             std::string("process.outline_inset_mm=") + inset});
         EXPECT_TRUE(proof.passed()) << inset;
-    }
-}
-
-/// A lump of random bumps, long, flat or round, that touches the bed in a point: all of its lower
-/// half hangs.
-TriMesh random_shape(decomp::Rng& rng) {
-    TriMesh lump = tests::sphere(rng.uniform(6, 12), 36, 23);
-    Eigen::Vector3d stretch;
-    for (int axis = 0; axis < 3; ++axis) {
-        stretch[axis] = rng.uniform(0.6, 1.6);
-    }
-    for (auto& p : lump.points) {
-        p = rng.uniform(0.92, 1.06) * p.cwiseProduct(stretch);
-    }
-    const double low = decomp::mesh::bounds(lump).min().z();
-    return raised(std::move(lump), -low);
-}
-
-TEST(ProofOfPlan, RandomShapes) {
-    const char* asked = std::getenv("HEW_RANDOM_PARTS");
-    const int count = asked != nullptr ? std::atoi(asked) : 4;
-    decomp::Rng rng(17);
-    for (int i = 0; i < count; ++i) {
-        const auto proof = proof_of(random_shape(rng));
-        EXPECT_TRUE(proof.passed()) << "shape " << i;
-        for (const auto& fault : proof.faults) {
-            ADD_FAILURE() << i << ": " << fault.code << " layer " << fault.layer << ": "
-                          << fault.text;
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/check/cover.h"
 
+#include "cam/check/cover_bound.h"
 #include "decomp/base/rng.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,10 @@ TEST(Cover, IsTheSmallestByExhaustion) {
             }
         }
         EXPECT_EQ(static_cast<int>(cover.chosen.size()), fewest);
+        EXPECT_EQ(cover.at_least, fewest);
+        const Cover hasty = smallest_cover(masks, weights, {.enough = 0.95, .most_nodes = 0});
+        EXPECT_LE(hasty.at_least, fewest);
+        EXPECT_GE(static_cast<int>(hasty.chosen.size()), fewest);
         EXPECT_NEAR(cover.covered.back(), most, 1e-9);
         EXPECT_NEAR(cover.coverable, all, 1e-9);
     }
@@ -71,7 +76,34 @@ TEST(Cover, ASmallBudgetSaysThatNothingIsProvedAndStillCovers) {
     const std::vector<double> weights(masks.size(), 1.0);
     const Cover cover = smallest_cover(masks, weights, {.enough = 0.99, .most_nodes = 50});
     EXPECT_FALSE(cover.smallest);
+    EXPECT_LT(cover.at_least, static_cast<int>(cover.chosen.size()));
+    EXPECT_GT(cover.at_least, 10);  // a bit covers a sixteenth, so eleven never cover 0.99
     EXPECT_GE(cover.covered.back(), 0.99 * cover.coverable);
+}
+
+TEST(Cover, PricesBoundWhatAnySetCovers) {
+    decomp::Rng rng(11);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<cam::check::CoverGroup> groups;
+        for (int i = 0; i < 80; ++i) {
+            groups.push_back({rng.next() & rng.next() & 0x3FFU, rng.uniform(0.1, 2)});
+        }
+        for (int size = 1; size <= 5; ++size) {
+            double most = 0;
+            for (std::uint64_t set = 0; set < 1024; ++set) {
+                double sum = 0;
+                for (const auto& group : groups) {
+                    sum += (group.mask & set) != 0 ? group.weight : 0;
+                }
+                most = std::popcount(set) == size ? std::max(most, sum) : most;
+            }
+            const auto prices = cam::check::low_prices(groups, {.size = size, .wanted = most});
+            const double gains = cam::check::largest_sum(cam::check::gains_of(groups, 0), size, 0);
+            EXPECT_GE(prices.bound, most - 1e-9);
+            EXPECT_LE(prices.bound, gains + 1e-9)
+                << "prices of the whole weight are the first tried";
+        }
+    }
 }
 
 TEST(Cover, NothingToCoverNeedsNothing) {

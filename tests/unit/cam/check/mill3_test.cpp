@@ -107,7 +107,7 @@ TEST(CheckMill3, ACupIsAHeightFieldThatAThickToolCannotEnter) {
     const double floor = 10;
     const auto cup = tests::cup(15, inner, height, floor, 96);
     const auto check = checked(cup, Setups::One,
-                               {tool(Shape::Flat, 12, 25, 60), tool(Shape::Flat, 4, 25, 60),
+                               {tool(Shape::Flat, 12, 32, 60), tool(Shape::Flat, 4, 32, 60),
                                 tool(Shape::Flat, 4, 12, 60), tool(Shape::Flat, 4, 12, 15)});
     EXPECT_EQ(best(check).unseen.facets, 0U);
     EXPECT_TRUE(best(check).height_field);

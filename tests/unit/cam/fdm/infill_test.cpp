@@ -7,7 +7,9 @@
 
 namespace {
 
+using cam::fdm::fill_in_order;
 using cam::fdm::fill_with_lines;
+using cam::fdm::FillPattern;
 using cam::fdm::Line;
 using cam::polygon::Paths;
 using decomp::Angle;
@@ -63,6 +65,62 @@ TEST(Infill, GridIsFixedToTheOriginSoThatLayersMeet) {
     for (const Line& line : fill_with_lines({disc(9, 60)}, {2, Angle(), -1})) {
         EXPECT_NEAR(std::remainder(line.front().y(), 2), 0, 1e-9);
     }
+}
+
+/// Middle of a level stretch, and its ends along it.
+struct Level {
+    double y, left, right;
+};
+
+std::vector<Level> levels_of(const std::vector<Line>& lines) {
+    std::vector<Level> out;
+    for (const Line& line : lines) {
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const auto& a = line[i];
+            const auto& b = line[i + 1];
+            // Links along the holes' edges lie between the rows.
+            const bool row = std::abs(std::remainder(a.y(), 0.5)) < 1e-6;
+            if (row && std::abs(a.y() - b.y()) < 1e-9 && std::abs(a.x() - b.x()) > 0.05) {
+                out.push_back({a.y(), std::min(a.x(), b.x()), std::max(a.x(), b.x())});
+            }
+        }
+    }
+    return out;
+}
+
+TEST(InfillInOrder, NoLineIsLaidBeforeTheOneBelowIt) {
+    // Holes side by side and above one another: the sweep has to part and to meet again.
+    const Paths region = {disc(10, 90), hole(rectangle({-6, -2.9}, {-2, 1.1})),
+                          hole(rectangle({1, -1.1}, {4, 5.2})),
+                          hole(rectangle({-5, 4.1}, {-3, 6.2}))};
+    const FillPattern pattern{0.5, Angle(), 8};
+    const auto lines = fill_in_order(region, pattern);
+    const auto levels = levels_of(lines);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        for (std::size_t j = i + 1; j < levels.size(); ++j) {
+            const bool beside = std::min(levels[i].right, levels[j].right) >
+                                std::max(levels[i].left, levels[j].left);
+            const bool below = std::abs(levels[i].y - 0.5 - levels[j].y) < 1e-6;
+            EXPECT_FALSE(beside && below) << levels[j].y << " after " << levels[i].y;
+        }
+    }
+    EXPECT_LE(lines.size(), 12U) << "few long zigzags";
+    double swept = 0;
+    double whole = 0;
+    for (const Level& l : levels) {
+        swept += l.right - l.left;
+    }
+    for (const Level& l : levels_of(fill_with_lines(region, pattern))) {
+        whole += l.right - l.left;
+    }
+    EXPECT_NEAR(swept, whole, 1e-6);
+}
+
+TEST(InfillInOrder, ARectangleIsOneZigzag) {
+    const auto lines = fill_in_order({rectangle({0, 0.05}, {10, 5.05})}, {0.5, Angle(), 1});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_NEAR(length(lines), 10 * 10 + 9 * 0.5, 1e-6);
+    EXPECT_TRUE(fill_in_order({}, {0.5, Angle(), 1}).empty());
 }
 
 }  // namespace

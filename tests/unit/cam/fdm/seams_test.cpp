@@ -98,13 +98,29 @@ TEST(OverhangWalls, TheStretchOverAirIsSlowedAndNothingIsLost) {
             length += step;
             over_air += pieces[k].feature == Feature::OverhangWall ? step : 0;
         }
-        EXPECT_EQ(pieces[k].speed.mm_per_s(), pieces[k].feature == Feature::OverhangWall ? 10 : 45);
+        EXPECT_NEAR(pieces[k].speed.mm_per_s(),
+                    pieces[k].feature == Feature::OverhangWall ? 10 : 45, 1e-9);
         if (k > 0) {
             EXPECT_EQ(pieces[k].points.front(), pieces[k - 1].points.back()) << "no travel between";
         }
     }
     EXPECT_NEAR(length, 80, 1e-9);
     EXPECT_NEAR(over_air, 8 + 10 + 8, 1e-9);
+}
+
+TEST(OverhangWalls, TheSpeedFallsWithTheShareOverAir) {
+    // A wall 0.45 mm wide along an edge: its middle lies `inside` of it.
+    const cam::polygon::Paths below = {tests::rectangle({0, 0}, {40, 10})};
+    double last = 46;
+    for (const double inside : {0.2, 0.08, -0.08, -0.2}) {
+        const auto pieces = cam::fdm::with_overhangs({wall({{5, inside}, {35, inside}})}, below,
+                                                     decomp::Speed::mm_per_s(15));
+        ASSERT_EQ(pieces.size(), 1U) << inside;
+        EXPECT_LT(pieces[0].speed.mm_per_s(), last) << inside;
+        EXPECT_EQ(pieces[0].feature == Feature::OverhangWall, inside < 0) << inside;
+        last = pieces[0].speed.mm_per_s();
+    }
+    EXPECT_NEAR(last, 15, 1e-9);
 }
 
 TEST(OverhangWalls, ShortStretchesAndInfillStayAsTheyAre) {

@@ -87,4 +87,24 @@ TEST(Cooling, WaitsForWhatTheFloorDoesNotGive) {
     EXPECT_EQ(cam::motion::cooled(tests::tower(2, 15), with).layers[0].pause_s, 0);
 }
 
+TEST(Estimate, ThePiecesOfALayerAddUpToIt) {
+    const auto setup = cam::profile::read_fdm_setup("flashforge-creator-pro").value();
+    const auto stack = tests::tower(4);
+    const auto whole = cam::motion::estimate(stack, setup);
+    cam::motion::PieceCounter counter;
+    std::vector<double> sums(stack.layers.size(), 0.0);
+    std::size_t next = 0;
+    cam::motion::trace(stack, setup, [&](const cam::motion::Move& move) {
+        const std::size_t piece = counter.piece_of(move);
+        for (; next <= piece; ++next) {
+            sums[move.layer] += whole.piece_seconds[next];
+        }
+    });
+    EXPECT_EQ(next, whole.piece_seconds.size());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        EXPECT_NEAR(sums[i], whole.layer_seconds[i], 1e-9) << i;
+    }
+    EXPECT_GT(whole.piece_seconds.size(), stack.layers.size());
+}
+
 }  // namespace

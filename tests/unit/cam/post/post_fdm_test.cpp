@@ -91,6 +91,25 @@ TEST(PostFdm, ProgressRisesAndLeavesBeginningAndEndToTheTemplates) {
     EXPECT_GE(seen.size(), 30U);
 }
 
+TEST(PostFdm, ProgressIsToldWithinALayerToo) {
+    auto stack = tests::tower(2);
+    for (auto& layer : stack.layers) {
+        const auto once = layer.beads;
+        for (int i = 0; i < 30; ++i) {
+            layer.beads.insert(layer.beads.end(), once.begin(), once.end());
+        }
+    }
+    const std::string text = text_of(stack, creator());
+    const std::size_t second = text.find(";LAYER:1\n");
+    const auto told = [&](const std::string& part) {
+        const std::regex progress("\nM73 P");
+        return std::distance(std::sregex_iterator(part.begin(), part.end(), progress),
+                             std::sregex_iterator());
+    };
+    EXPECT_GT(told(text.substr(0, second)), 20);
+    EXPECT_GT(told(text.substr(second)), 20);
+}
+
 TEST(PostFdm, WritesTheSameBytesEachTime) {
     EXPECT_EQ(text_of(tests::tower(3), creator()), text_of(tests::tower(3), creator()));
 }

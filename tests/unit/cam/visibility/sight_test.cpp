@@ -4,7 +4,7 @@
 #include "decomp/base/rng.h"
 #include "decomp/mesh/measure.h"
 #include "tests/support/oracle_sight.h"
-#include "tests/support/shapes.h"
+#include "tests/support/part_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -89,6 +89,19 @@ TEST(Sight, WhatIsSeenFromAnyIsWhatHasAMask) {
     const auto seen = sight.seen_from_any(directions, Facing::Front, {});
     for (std::size_t i = 0; i < masks.size(); ++i) {
         EXPECT_EQ(seen[i] != 0, masks[i] != 0);
+    }
+}
+
+TEST(Sight, AQuickTreeGivesTheAnswersOfAFineOne) {
+    for (const TriMesh& mesh : {tests::torus(20, 8, 90, 45), tests::dumbbell(20, 4, 50, 7, 48),
+                                tests::hook(10, 40, 15)}) {
+        const auto facets = measure_facets(mesh);
+        const auto fine = Sight::of(mesh, facets).value();
+        const auto quick = Sight::of(mesh, facets, cam::visibility::Tree::Quick).value();
+        for (const Facing facing : {Facing::Front, Facing::Wall}) {
+            EXPECT_EQ(quick.seen_masks(ring(40), facing, {}),
+                      fine.seen_masks(ring(40), facing, {}));
+        }
     }
 }
 
