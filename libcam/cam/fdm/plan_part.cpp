@@ -137,9 +137,10 @@ void fill_interiors(const std::vector<Paths>& slices, std::vector<PartLayer>& la
     for (const PartLayer& layer : layers) {
         insides.push_back(layer.walls.inside);
     }
-    const SkinOptions options{process.top_layers, process.bottom_layers,
-                              BeadSize{process.line_width_mm, process.layer_height_mm}.spacing_mm(),
-                              process.infill_density >= kFullDensity};
+    const double spacing = BeadSize{process.line_width_mm, process.layer_height_mm}.spacing_mm();
+    const double cell = process.infill_density > 0 ? 2 * spacing / process.infill_density : 0;
+    const SkinOptions options{process.top_layers, process.bottom_layers, spacing,
+                              process.infill_density >= kFullDensity, cell};
     auto interiors = split_interiors(slices, insides, options, run);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         layers[i].interior = std::move(interiors[i]);

@@ -53,6 +53,22 @@ class Windows {
     std::map<int, std::vector<Paths>> by_size_;
 };
 
+/// Pieces that would lie in a cell of the infill and touch nothing: widened until they rest on
+/// lines.
+Paths resting(const Paths& solid, const Paths& inside, const SkinOptions& options) {
+    Paths out = solid;
+    for (const polygon::Island& island : polygon::islands(solid)) {
+        const Paths loops = island.loops();
+        const bool broad = !polygon::offset(loops, -options.cell_mm / 2).empty();
+        if (!broad &&
+            polygon::subtract(polygon::offset(loops, options.spacing_mm), inside).empty()) {
+            out = polygon::unite(
+                out, polygon::intersect(polygon::offset(loops, options.cell_mm / 2), inside));
+        }
+    }
+    return out;
+}
+
 /// Solid, widened into the infill, and the infill that is left; what is too narrow or small for
 /// infill is solid.
 void settle(const Paths& skin, const Paths& inside, const SkinOptions& options, Interior& out) {
@@ -60,7 +76,7 @@ void settle(const Paths& skin, const Paths& inside, const SkinOptions& options, 
     if (core.empty()) {
         out.sparse = inside;
     } else {
-        const Paths wide = polygon::offset(core, kAnchorMm);
+        const Paths wide = resting(polygon::offset(core, kAnchorMm), inside, options);
         out.sparse = polygon::opened(polygon::subtract(inside, wide), options.spacing_mm);
     }
     Paths sparse;

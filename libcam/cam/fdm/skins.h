@@ -23,11 +23,12 @@ struct SkinOptions {
     int bottom_layers = 4;
     double spacing_mm = 0.4;  ///< of solid lines
     bool all_solid = false;   ///< 100 % infill
+    double cell_mm = 0;       ///< widest gap between lines of infill; 0: there are none
 };
 
 /// Splits the inside of every layer. Solid is what has not `top_layers` slices above it and
-/// `bottom_layers` below it, widened so that it is anchored in the infill, and what would be too
-/// small for infill. Parallel over layers.
+/// `bottom_layers` below it, widened so that it is anchored in the infill or rests on its lines,
+/// and what would be too small for infill. Parallel over layers.
 [[nodiscard]] std::vector<Interior> split_interiors(const std::vector<polygon::Paths>& slices,
                                                     const std::vector<polygon::Paths>& insides,
                                                     const SkinOptions& options,
