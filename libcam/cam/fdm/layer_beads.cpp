@@ -7,6 +7,7 @@
 #include "cam/fdm/overhang_walls.h"
 #include "cam/fdm/seams.h"
 #include "cam/fdm/sparse.h"
+#include "cam/fdm/support.h"
 #include "cam/fdm/travel.h"
 #include "cam/fdm/walls.h"
 #include "cam/polygon/boolean.h"
@@ -28,8 +29,9 @@ using path::Feature;
 using polygon::Paths;
 using Process = profile::FdmMachine::Process;
 
-constexpr double kSolidLinkSpacings = 15;   // solid lines are linked over at most so many spacings
-constexpr double kInterfaceSpacings = 1.5;  // lines of support under the part, by bead spacings
+constexpr double kSolidLinkSpacings = 15;  // solid lines are linked over at most so many spacings
+// Lines of support under the part, by bead spacings: the thinnest bead does not fall between two.
+constexpr double kInterfaceSpacings = 1.25;
 constexpr double kLeastWidthNozzles = 0.6;  // narrower beads than that do not come out of a nozzle
 constexpr double kLeastDotMm2 = 0.03;       // the least that gets a bead of its own
 constexpr double kLeastScrapMm2 = 0.4;      // likewise inside a solid area
@@ -171,7 +173,7 @@ class LayerBeads {
         append(ordered_by_travel(std::move(beads), at()));
     }
 
-    /// Zigzags; pieces too narrow for lines to stand on get an outline as well.
+    /// Zigzags; places too narrow for lines to stand on get an outline as well.
     void add_support_lines(Feature feature, const Paths& area, const FillPattern& pattern,
                            std::vector<Bead>& beads) const {
         for (const auto& island : polygon::islands(area)) {
@@ -179,10 +181,8 @@ class LayerBeads {
             for (Line& line : fill_with_lines(room, pattern)) {
                 beads.push_back(bead(feature, std::move(line)));
             }
-            if (polygon::offset(room, -pattern.spacing_mm).empty()) {
-                for (Line& loop : closed_lines(room)) {
-                    beads.push_back(bead(feature, std::move(loop)));
-                }
+            for (Line& loop : closed_lines(between_lines(room, pattern.spacing_mm))) {
+                beads.push_back(bead(feature, std::move(loop)));
             }
         }
     }

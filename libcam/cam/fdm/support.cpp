@@ -31,8 +31,12 @@ constexpr double kTopReachSpacings = 1.2;  // the dense top of a column rests on
 constexpr double kNotchMm =
     1.0;  // notches in a column's outline narrower than twice this are closed
 constexpr double kSmoothMm = 0.1;
-constexpr double kStandingShare = 0.9;  // of a piece of support, on what is below it
-constexpr double kLeastRoomMm2 = 0.05;  // for the centre line of a bead
+constexpr double kStandingShare = 0.9;    // of a piece of support, on what is below it
+constexpr double kNarrowSpacings = 0.55;  // half the width of what lines of a spacing cannot miss
+constexpr double kLeastNarrowMm = 1.0;    // long
+constexpr double kLeastNarrowWidthMm = 0.01;  // narrower slivers come from rounding
+constexpr double kRoomSlackMm = 0.005;        // so that rounding does not close narrow rooms again
+constexpr double kLeastRoomMm2 = 0.05;        // for the centre line of a bead
 
 /// What begins on a layer and needs something below, grown by the reach of its column.
 struct Overhang {
@@ -164,8 +168,10 @@ class Descent {
         std::vector<SupportAreas> out(slices_.size());
         decomp::for_each_index(run_, columns.size(), [&](std::size_t i) {
             if (!whole[i].empty()) {
-                const Paths above = i + 1 < whole.size() ? under_slender(whole[i + 1]) : Paths();
-                const Paths dense = polygon::unite(contact(i), above);
+                const Paths above =
+                    i + 1 < whole.size() ? under_slender(whole[i + 1], whole[i]) : Paths();
+                Paths dense = polygon::unite(contact(i), above);
+                dense = polygon::unite(dense, beside_dense(whole[i], dense));
                 out[i].interface = with_beads(polygon::intersect(whole[i], dense));
                 out[i].body = with_beads(polygon::subtract(whole[i], dense));
             }
@@ -196,28 +202,49 @@ class Descent {
         }
     }
 
-    /// The pieces in which the middle of a bead has room: others are not printed, and carry
-    /// nothing.
+    /// Where beads lie: what has no room for the middle of one is not printed, and carries nothing.
     [[nodiscard]] Paths with_beads(const Paths& area) const {
-        Paths out;
-        for (const polygon::Island& island : polygon::islands(area)) {
+        Paths room;
+        for (const polygon::Island& island :
+             polygon::islands(polygon::offset(area, -line_width_mm_ / 2))) {
             const Paths loops = island.loops();
-            if (polygon::area_mm2(polygon::offset(loops, -line_width_mm_ / 2)) >= kLeastRoomMm2) {
-                out.insert(out.end(), loops.begin(), loops.end());
+            if (polygon::area_mm2(loops) >= kLeastRoomMm2) {
+                room.insert(room.end(), loops.begin(), loops.end());
+            }
+        }
+        return room.empty() ? room : polygon::offset(room, line_width_mm_ / 2 + kRoomSlackMm);
+    }
+
+    /// Narrow strips of the body along the dense tops: dense too, since the lines of the layer
+    /// below may miss them.
+    [[nodiscard]] Paths beside_dense(const Paths& column, const Paths& dense) const {
+        Paths out;
+        const Paths body = polygon::subtract(column, dense);
+        for (const polygon::Island& island : polygon::islands(between_lines(body, spacing_mm_))) {
+            const Paths around = polygon::offset(island.loops(), line_width_mm_ / 2);
+            if (!polygon::intersect(around, dense).empty()) {
+                out = polygon::unite(out, around);
             }
         }
         return out;
     }
 
     /// Pieces that may fall between two lines of a wider column below them need a dense one there,
-    /// which reaches over to lines on either side.
-    [[nodiscard]] Paths under_slender(const Paths& column) const {
+    /// which reaches over to lines on either side; so do narrow places of a piece, unless the
+    /// column below is as narrow there and has an outline.
+    [[nodiscard]] Paths under_slender(const Paths& column, const Paths& below) const {
         Paths out;
+        Paths wide;
         for (const polygon::Island& island : polygon::islands(column)) {
             const Paths loops = island.loops();
-            if (polygon::offset(loops, -spacing_mm_).empty()) {
-                out.insert(out.end(), loops.begin(), loops.end());
-            }
+            Paths& kind = polygon::offset(loops, -spacing_mm_).empty() ? out : wide;
+            kind.insert(kind.end(), loops.begin(), loops.end());
+        }
+        Paths narrow = between_lines(wide, spacing_mm_);
+        if (!narrow.empty()) {
+            narrow = polygon::opened(polygon::subtract(narrow, between_lines(below, spacing_mm_)),
+                                     kNarrowMm / 2);
+            out.insert(out.end(), narrow.begin(), narrow.end());
         }
         return out.empty() ? out : polygon::offset(out, top_reach_mm_);
     }
@@ -228,7 +255,11 @@ class Descent {
         for (const polygon::Island& island : polygon::islands(columns)) {
             const Paths loops = island.loops();
             Paths apart = polygon::opened(polygon::subtract(loops, clear_[i]), kNarrowMm);
-            if (apart.empty()) {
+            // What stands beside the island that it is for carries little of it.
+            const Paths core = polygon::offset(loops, -kIslandReachMm);
+            const bool beside =
+                polygon::area_mm2(polygon::intersect(core, apart)) < polygon::area_mm2(core) / 2;
+            if (apart.empty() || beside) {
                 const Paths tight = polygon::offset(slices_[i], kTightGapMm);
                 apart = polygon::opened(polygon::subtract(loops, tight), kNarrowMm / 2);
             }
@@ -291,6 +322,7 @@ class Descent {
             }
             now.body = with_beads(polygon::intersect(now.body, below));
             now.interface = with_beads(polygon::intersect(now.interface, below));
+            below = polygon::unite(now.body, now.interface);
         }
     }
 
@@ -306,6 +338,26 @@ class Descent {
 };
 
 }  // namespace
+
+Paths between_lines(const Paths& area, double spacing_mm) {
+    Paths out;
+    if (area.empty()) {
+        return out;
+    }
+    const Paths wide = polygon::opened(area, kNarrowSpacings * spacing_mm);
+    for (const polygon::Island& island : polygon::islands(polygon::subtract(area, wide))) {
+        const Paths loops = island.loops();
+        double around = 0;
+        for (const auto& loop : loops) {
+            around += polygon::perimeter_mm(loop);
+        }
+        if (around >= 2 * kLeastNarrowMm &&
+            polygon::area_mm2(loops) >= kLeastNarrowWidthMm * around / 2) {
+            out.insert(out.end(), loops.begin(), loops.end());
+        }
+    }
+    return out;
+}
 
 std::vector<SupportAreas> find_supports(const std::vector<Paths>& slices,
                                         const std::vector<Paths>& carried,

@@ -37,4 +37,7 @@ struct SupportAreas {
                                                       const SupportOptions& options,
                                                       const decomp::Run& run);
 
+/// What of an area may fall between two lines that are `spacing_mm` apart.
+[[nodiscard]] polygon::Paths between_lines(const polygon::Paths& area, double spacing_mm);
+
 }  // namespace cam::fdm

@@ -154,4 +154,14 @@ TEST(Support, WhatABridgeCarriesNeedsNone) {
     }
 }
 
+TEST(BetweenLines, NarrowPlacesOfAnAreaAreFound) {
+    using cam::polygon::area_mm2;
+    // A square with an arm, of which lines 2.5 mm apart may miss the arm.
+    const cam::polygon::Paths area = cam::polygon::region_of(
+        {tests::rectangle({0, 0}, {10, 10}), tests::rectangle({9, 4}, {20, 6})});
+    EXPECT_NEAR(area_mm2(cam::fdm::between_lines(area, 2.5)), 10 * 2, 0.5);
+    EXPECT_TRUE(cam::fdm::between_lines(area, 1.5).empty());
+    EXPECT_TRUE(cam::fdm::between_lines({}, 2.5).empty());
+}
+
 }  // namespace
