@@ -59,6 +59,7 @@ struct BoardOptions {
     // Marlin
     bool emergency_parser = true;
     bool advanced_ok = false;
+    bool autoreport = true;  ///< temperatures by itself (M155)
     // Grbl
     int axes = 3;
     bool homing = false;  ///< locked after power-up until homed

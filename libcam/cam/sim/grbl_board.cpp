@@ -132,6 +132,9 @@ void GrblBoard::advance(Time now) {
             if (planner_.held() || (draining_ ? !planner_.empty() : planner_.full())) {
                 return;
             }
+            if (waiting_.kind == GrblBlock::Kind::Move && !run_block(now)) {
+                return;
+            }
             blocked_ = draining_ = false;
             if (waiting_.kind == GrblBlock::Kind::Dwell && waiting_.drain) {
                 // Motion before it is done; now the pause itself.
@@ -141,9 +144,7 @@ void GrblBoard::advance(Time now) {
                 blocked_ = draining_ = true;
                 continue;
             }
-            if (waiting_.kind == GrblBlock::Kind::Move) {
-                run_block(waiting_, now);
-            } else if (waiting_.kind == GrblBlock::Kind::Pause) {
+            if (waiting_.kind == GrblBlock::Kind::Pause) {
                 planner_.hold(now);
                 state_ = State::Hold;
             }
@@ -264,16 +265,29 @@ int GrblBoard::command(const std::string& line) {
     if (on_executed) {
         on_executed(line);
     }
-    waiting_ = block;
+    waiting_ = std::move(block);
+    chord_ = 0;
     blocked_ = true;
     draining_ = block.drain;
     return 0;
 }
 
-void GrblBoard::run_block(const GrblBlock& block, Time now) {
-    const double speed = block.mm_per_s > 0 ? block.mm_per_s * feed_override_ / block.length_factor
-                                            : options_.max_mm_per_s;
-    planner_.add(block.target, speed, 0, now);
+/// Plans a move, an arc chord by chord; false while the planner has no room for the rest of it.
+bool GrblBoard::run_block(Time now) {
+    const double speed =
+        waiting_.mm_per_s > 0 ? waiting_.mm_per_s * feed_override_ : options_.max_mm_per_s;
+    if (waiting_.chords.empty()) {
+        planner_.add(waiting_.target, speed, 0, now);
+        return true;
+    }
+    for (; chord_ < waiting_.chords.size(); ++chord_) {
+        if (planner_.full()) {
+            update(now);
+            return false;
+        }
+        planner_.add(waiting_.chords[chord_], speed, 0, now);
+    }
+    return true;
 }
 
 Point GrblBoard::work_offset() const {

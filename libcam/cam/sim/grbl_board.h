@@ -46,7 +46,7 @@ class GrblBoard final : public Board {
     bool take_line(Time now);
     void answer(const std::string& line, Time now);
     int command(const std::string& line);
-    void run_block(const GrblBlock& block, Time now);
+    bool run_block(Time now);
     void soft_reset(Time now);
     void report(Time now);
     void update(Time now);
@@ -68,6 +68,7 @@ class GrblBoard final : public Board {
     bool blocked_ = false;  ///< a parsed line waits for room in the planner or for its end
     bool draining_ = false;
     GrblBlock waiting_;
+    std::size_t chord_ = 0;  ///< of waiting_, planned next
     std::string waiting_text_;
     double feed_override_ = 1;
     int reports_ = 0;

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/sim/grbl_parser.h"
 
+#include "cam/sim/arc.h"
+
 #include <charconv>
 #include <cmath>
-#include <set>
-#include <vector>
 
 namespace cam::sim {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kMmPerInch = 25.4;
+constexpr double kArcToleranceMm = 0.002;  ///< $12
 constexpr std::string_view kAxisLetters = "XYZABC";
 
 enum Error {
     kFine = 0,
     kExpectedLetter = 1,
     kBadNumber = 2,
+    kNegative = 4,
     kUnsupported = 20,
     kModalGroup = 21,
     kNoFeed = 22,
@@ -25,6 +27,8 @@ enum Error {
     kRepeated = 25,
     kNoAxisWords = 26,
     kMissingValue = 28,
+    kG53Motion = 30,
+    kUnusedAxisWords = 31,
     kBadTarget = 33,
     kBadRadius = 34,
     kNoOffsets = 35,
@@ -50,10 +54,7 @@ struct GrblParser::Words {
 
 void GrblParser::clear() { modal_ = {}; }
 
-int GrblParser::read(std::string_view line, const Point& from, const std::array<Point, 6>& offsets,
-                     GrblBlock& block) {
-    block = {};
-    Words words;
+int GrblParser::read_words(std::string_view line, Words& words) {
     while (!line.empty()) {
         const char letter = line.front();
         line.remove_prefix(1);
@@ -86,111 +87,137 @@ int GrblParser::read(std::string_view line, const Point& from, const std::array<
             return kUnsupported;
         }
     }
+    return kFine;
+}
+
+int GrblParser::read(std::string_view line, const Point& from, const std::array<Point, 6>& offsets,
+                     GrblBlock& block) {
+    block = {};
+    Words words;
+    if (const int error = read_words(line, words); error != kFine) {
+        return error;
+    }
     Modal modal = modal_;
-    std::set<int> groups;
-    bool dwell = false;
-    bool machine_coordinates = false;
-    bool motion_given = false;
-    bool offset_command = false;
+    Orders orders;
     for (const double g : words.g) {
-        const int code = static_cast<int>(std::lround(g * 10));
-        int group = 0;
-        switch (code) {
-            case 0:
-            case 10:
-            case 20:
-            case 30:
-            case 800:
-                group = 1;
-                modal.motion = code / 10;
-                motion_given = code != 800;
-                break;
-            case 40:
-                dwell = true;
-                break;
-            case 170:
-            case 180:
-            case 190:
-                group = 2;
-                modal.plane = code / 10;
-                break;
-            case 200:
-            case 210:
-                group = 6;
-                modal.units = code / 10;
-                break;
-            case 530:
-                machine_coordinates = true;
-                break;
-            case 540:
-            case 550:
-            case 560:
-            case 570:
-            case 580:
-            case 590:
-                group = 12;
-                modal.coordinates = code / 10 - 54;
-                break;
-            case 900:
-            case 910:
-                group = 3;
-                modal.distance = code / 10;
-                break;
-            case 940:
-                group = 5;
-                modal.feed_mode = 94;
-                break;
-            case 920:
-                offset_command = true;
-                break;
-            case 400:
-            case 490:
-            case 610:
-            case 911:
-                break;
-            default:
-                return kUnsupported;
-        }
-        if (group != 0 && !groups.insert(group).second) {
-            return kModalGroup;
+        if (const int error = take_g(static_cast<int>(std::lround(g * 10)), modal, orders);
+            error != kFine) {
+            return error;
         }
     }
     for (const double m : words.m) {
-        switch (static_cast<int>(std::lround(m))) {
-            case 0:
-            case 1:
-                block.kind = GrblBlock::Kind::Pause;
-                block.drain = true;
-                break;
-            case 2:
-            case 30:
-                block.kind = GrblBlock::Kind::End;
-                block.drain = true;
-                break;
-            case 3:
-            case 4:
-            case 5:
-                modal.spindle = static_cast<int>(std::lround(m));
-                block.drain = true;
-                break;
-            case 7:
-                modal.mist = true;
-                break;
-            case 8:
-                modal.flood = true;
-                break;
-            case 9:
-                modal.mist = modal.flood = false;
-                break;
-            default:
-                return kUnsupported;
+        if (const int error = take_m(static_cast<int>(std::lround(m)), modal, block);
+            error != kFine) {
+            return error;
         }
     }
+    if (const int error = act(words, from, offsets, orders, modal, block); error != kFine) {
+        return error;
+    }
+    modal_ = modal;
+    return kFine;
+}
+
+int GrblParser::take_g(int tenths, Modal& modal, Orders& orders) {
+    int group = 0;
+    switch (tenths) {
+        case 0:
+        case 10:
+        case 20:
+        case 30:
+        case 800:
+            group = 1;
+            modal.motion = tenths / 10;
+            orders.motion = tenths != 800;
+            break;
+        case 40:
+            orders.dwell = true;
+            break;
+        case 170:
+        case 180:
+        case 190:
+            group = 2;
+            modal.plane = tenths / 10;
+            break;
+        case 200:
+        case 210:
+            group = 6;
+            modal.units = tenths / 10;
+            break;
+        case 530:
+            orders.machine_coordinates = true;
+            break;
+        case 540:
+        case 550:
+        case 560:
+        case 570:
+        case 580:
+        case 590:
+            group = 12;
+            modal.coordinates = tenths / 10 - 54;
+            break;
+        case 900:
+        case 910:
+            group = 3;
+            modal.distance = tenths / 10;
+            break;
+        case 940:
+            group = 5;
+            modal.feed_mode = 94;
+            break;
+        case 920:
+            orders.offset = true;
+            break;
+        case 400:
+        case 490:
+        case 610:
+        case 911:
+            break;
+        default:
+            return kUnsupported;
+    }
+    return group == 0 || orders.groups.insert(group).second ? kFine : kModalGroup;
+}
+
+int GrblParser::take_m(int code, Modal& modal, GrblBlock& block) {
+    switch (code) {
+        case 0:
+        case 1:
+            block.kind = GrblBlock::Kind::Pause;
+            block.drain = true;
+            break;
+        case 2:
+        case 30:
+            block.kind = GrblBlock::Kind::End;
+            block.drain = true;
+            break;
+        case 3:
+        case 4:
+        case 5:
+            modal.spindle = code;
+            block.drain = true;
+            break;
+        case 7:
+            modal.mist = true;
+            break;
+        case 8:
+            modal.flood = true;
+            break;
+        case 9:
+            modal.mist = modal.flood = false;
+            break;
+        default:
+            return kUnsupported;
+    }
+    return kFine;
+}
+
+int GrblParser::take_values(const Words& words, Modal& modal, bool& axis_words) const {
     if (words.has('F')) {
         if (words.get('F') < 0) {
-            return 4;
+            return kNegative;
         }
-        modal.feed = words.get('F') * (modal.units == 20 ? 25.4 : 1);
+        modal.feed = words.get('F') * (modal.units == 20 ? kMmPerInch : 1);
     }
     if (words.has('S')) {
         modal.speed = words.get('S');
@@ -198,7 +225,6 @@ int GrblParser::read(std::string_view line, const Point& from, const std::array<
     if (words.has('T')) {
         modal.tool = static_cast<int>(words.get('T'));
     }
-    bool axis_words = false;
     for (std::size_t axis = 0; axis < kAxisLetters.size(); ++axis) {
         if (words.has(kAxisLetters[axis])) {
             if (static_cast<int>(axis) >= axes_) {
@@ -207,38 +233,45 @@ int GrblParser::read(std::string_view line, const Point& from, const std::array<
             axis_words = true;
         }
     }
-    if (dwell) {
+    return kFine;
+}
+
+int GrblParser::act(const Words& words, const Point& from, const std::array<Point, 6>& offsets,
+                    const Orders& orders, Modal& modal, GrblBlock& block) const {
+    bool axis_words = false;
+    if (const int error = take_values(words, modal, axis_words); error != kFine) {
+        return error;
+    }
+    if (orders.dwell) {
         if (!words.has('P')) {
             return kMissingValue;
         }
         block.kind = GrblBlock::Kind::Dwell;
         block.seconds = words.get('P');
         block.drain = true;
-    } else if (axis_words && !offset_command) {
-        if (modal.motion == 80) {
-            return 31;
-        }
-        const Point zero{};
-        const Point& offset =
-            machine_coordinates ? zero : offsets.at(static_cast<std::size_t>(modal.coordinates));
-        Modal with = modal;
-        with.distance = machine_coordinates ? 90 : modal.distance;
-        if (machine_coordinates && modal.motion > 1) {
-            return 30;
-        }
-        if (const int error = motion(words, from, offset, with, block); error != kFine) {
-            return error;
-        }
-    } else if (motion_given && modal.motion >= 2) {
-        return kNoAxisWords;
+        return kFine;
     }
-    modal_ = modal;
-    return kFine;
+    if (!axis_words || orders.offset) {
+        return orders.motion && modal.motion >= 2 ? kNoAxisWords : kFine;
+    }
+    if (modal.motion == 80) {
+        return kUnusedAxisWords;
+    }
+    if (orders.machine_coordinates && modal.motion > 1) {
+        return kG53Motion;
+    }
+    Modal with = modal;
+    with.distance = orders.machine_coordinates ? 90 : modal.distance;
+    const Point zero{};
+    return motion(
+        words, from,
+        orders.machine_coordinates ? zero : offsets.at(static_cast<std::size_t>(modal.coordinates)),
+        with, block);
 }
 
-int GrblParser::motion(const Words& words, const Point& from, const Point& offset, Modal& modal,
-                       GrblBlock& block) const {
-    const double unit = modal.units == 20 ? 25.4 : 1;
+int GrblParser::motion(const Words& words, const Point& from, const Point& offset,
+                       const Modal& modal, GrblBlock& block) const {
+    const double unit = modal.units == 20 ? kMmPerInch : 1;
     block.kind = GrblBlock::Kind::Move;
     block.target = from;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
@@ -257,33 +290,36 @@ int GrblParser::motion(const Words& words, const Point& from, const Point& offse
         return kNoFeed;
     }
     block.mm_per_s = modal.feed / 60;
-    if (modal.motion == 1) {
-        return kFine;
-    }
-    const std::size_t u = modal.plane == 17 ? 0 : modal.plane == 18 ? 2 : 1;
-    const std::size_t v = modal.plane == 17 ? 1 : modal.plane == 18 ? 0 : 2;
-    const double chord = std::hypot(block.target[u] - from[u], block.target[v] - from[v]);
-    double radius = 0;
+    return modal.motion == 1 ? kFine : arc(words, from, modal, block);
+}
+
+int GrblParser::arc(const Words& words, const Point& from, const Modal& modal, GrblBlock& block) {
+    const double unit = modal.units == 20 ? kMmPerInch : 1;
+    Arc arc{from, block.target, 0, 1, 0, 0, modal.motion == 2};
+    arc.u = modal.plane == 17 ? 0 : modal.plane == 18 ? 2 : 1;
+    arc.v = modal.plane == 17 ? 1 : modal.plane == 18 ? 0 : 2;
     if (words.has('R')) {
-        radius = std::abs(words.get('R') * unit);
-        if (chord == 0 || chord > 2 * radius + 0.01) {
+        if (!centre_of(arc, words.get('R') * unit)) {
             return kBadRadius;
         }
     } else {
         constexpr std::string_view kCentre = "IJK";
-        if (!words.has(kCentre[u]) && !words.has(kCentre[v])) {
+        if (!words.has(kCentre[arc.u]) && !words.has(kCentre[arc.v])) {
             return kNoOffsets;
         }
-        const double i = words.has(kCentre[u]) ? words.get(kCentre[u]) * unit : 0;
-        const double j = words.has(kCentre[v]) ? words.get(kCentre[v]) * unit : 0;
-        radius = std::hypot(i, j);
-        const double end = std::hypot(block.target[u] - from[u] - i, block.target[v] - from[v] - j);
-        if (std::abs(end - radius) > 0.005 && std::abs(end - radius) > 0.001 * radius + 0.5) {
+        const double i = words.has(kCentre[arc.u]) ? words.get(kCentre[arc.u]) * unit : 0;
+        const double j = words.has(kCentre[arc.v]) ? words.get(kCentre[arc.v]) * unit : 0;
+        arc.centre_u = from[arc.u] + i;
+        arc.centre_v = from[arc.v] + j;
+        const double radius = std::hypot(i, j);
+        const double off = std::abs(
+            std::hypot(arc.to[arc.u] - arc.centre_u, arc.to[arc.v] - arc.centre_v) - radius);
+        // As Grbl: half a millimetre is too much, and so is a thousandth of the radius.
+        if (off > 0.005 && (off > 0.5 || off > 0.001 * radius)) {
             return kBadTarget;
         }
     }
-    const double half = std::asin(std::min(1.0, chord / (2 * std::max(radius, 0.0001))));
-    block.length_factor = chord > 0 ? std::max(1.0, half / (chord / (2 * radius))) : 2 * kPi;
+    block.chords = arc_points(arc, kArcToleranceMm);
     return kFine;
 }
 

@@ -4,8 +4,10 @@
 #include "cam/sim/planner.h"
 
 #include <array>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cam::sim {
 
@@ -14,9 +16,9 @@ struct GrblBlock {
     enum class Kind { Nothing, Move, Dwell, Pause, End };
 
     Kind kind = Kind::Nothing;
-    Point target{};            ///< machine coordinates, mm and degrees
-    double mm_per_s = 0;       ///< 0: as fast as it goes
-    double length_factor = 1;  ///< of an arc over its chord
+    Point target{};             ///< machine coordinates, mm and degrees
+    std::vector<Point> chords;  ///< of an arc, up to its end; empty: straight
+    double mm_per_s = 0;        ///< 0: as fast as it goes
     double seconds = 0;
     bool drain = false;  ///< waits for all motion before it
 };
@@ -59,8 +61,26 @@ class GrblParser {
 
     struct Words;
 
+    /// What a line says besides its modes.
+    struct Orders {
+        std::set<int> groups;  ///< modal groups that have been set
+        bool dwell = false;
+        bool machine_coordinates = false;
+        bool motion = false;
+        bool offset = false;
+    };
+
+    [[nodiscard]] static int read_words(std::string_view line, Words& words);
+    [[nodiscard]] static int take_g(int tenths, Modal& modal, Orders& orders);
+    [[nodiscard]] static int take_m(int code, Modal& modal, GrblBlock& block);
+    [[nodiscard]] int take_values(const Words& words, Modal& modal, bool& axis_words) const;
+    [[nodiscard]] int act(const Words& words, const Point& from,
+                          const std::array<Point, 6>& offsets, const Orders& orders, Modal& modal,
+                          GrblBlock& block) const;
     [[nodiscard]] int motion(const Words& words, const Point& from, const Point& offset,
-                             Modal& modal, GrblBlock& block) const;
+                             const Modal& modal, GrblBlock& block) const;
+    [[nodiscard]] static int arc(const Words& words, const Point& from, const Modal& modal,
+                                 GrblBlock& block);
 
     int axes_;
     Modal modal_;

@@ -13,18 +13,6 @@ namespace {
 
 constexpr std::size_t kCommands = 4;
 constexpr std::size_t kLongestLine = 96;
-constexpr double kDegreesPerSecond = 5;
-constexpr std::size_t kE = 3;
-
-/// The number behind a letter; false when the letter is absent.
-bool parameter(const std::string& text, char letter, double& value) {
-    const std::size_t at = text.find(letter, 1);
-    if (at == std::string::npos) {
-        return false;
-    }
-    value = std::strtod(text.c_str() + at + 1, nullptr);
-    return true;
-}
 
 }  // namespace
 
@@ -41,6 +29,7 @@ void MarlinBoard::reset(Time now) {
     planner_.place({});
     last_number_ = 0;
     absolute_ = absolute_e_ = true;
+    feed_percent_ = 100;
     report_seconds_ = 0;
     nozzle_.target = bed_.target = 0;
     out_ += "start\necho:Marlin 2.0.9\necho: Free Memory: 4242\n";
@@ -202,10 +191,12 @@ bool MarlinBoard::work(Time now) {
         case Wait::User:
             return false;
         case Wait::Slot:
-            if (planner_.full()) {
-                return false;
+            for (; chord_ < chords_.size(); ++chord_) {
+                if (planner_.full()) {
+                    return false;
+                }
+                planner_.add(chords_[chord_], pending_speed_, 0, now);
             }
-            planner_.add(target_, pending_speed_, 0, now);
             break;
         case Wait::Drain:
             if (!planner_.empty()) {
@@ -241,174 +232,6 @@ void MarlinBoard::finish(Time now) {
         out_.insert(out_.rfind("ok"), place_text(now) + "\n");
     }
     out_ += "\n";
-}
-
-void MarlinBoard::start(const std::string& text, Time now) {
-    const char letter = text.empty() ? '\0' : text[0];
-    char* end = nullptr;
-    const int code =
-        text.size() > 1 ? static_cast<int>(std::strtol(text.c_str() + 1, &end, 10)) : -1;
-    const bool read = end != nullptr && end != text.c_str() + 1;
-    const bool housekeeping =
-        letter == 'M' && (code == 105 || code == 110 || code == 115 || code == 155 || code == 114);
-    const bool known = (letter == 'G' && code >= 0 && code <= 100) ||
-                       (letter == 'M' && code >= 0 && code < 1000) ||
-                       (letter == 'T' && code >= 0 && code < 16);
-    if (read && known && !housekeeping && on_executed) {
-        on_executed(text);
-    }
-    if (read && letter == 'G') {
-        general(code, text, now);
-    } else if (read && letter == 'M') {
-        miscellaneous(code, text, now);
-    } else if (!(read && letter == 'T')) {
-        out_ += "echo:Unknown command: \"" + text + "\"\n";
-    }
-    if (working_ && wait_ == Wait::None) {
-        finish(now);
-    }
-}
-
-void MarlinBoard::general(int code, const std::string& text, Time now) {
-    double value = 0;
-    switch (code) {
-        case 0:
-        case 1:
-        case 2:
-        case 3:
-            move(text, now);
-            break;
-        case 4:
-            wait_ = Wait::Drain;
-            if (parameter(text, 'P', value) || parameter(text, 'S', value)) {
-                const double seconds = text.find('P') != std::string::npos ? value / 1000 : value;
-                planner_.add(planner_.target(), 0, seconds, now);
-            }
-            break;
-        case 28:
-            planner_.add({0, 0, 0, planner_.target()[kE], 0, 0}, 50, 0.5, now);
-            wait_ = Wait::Drain;
-            break;
-        case 90:
-        case 91:
-            absolute_ = absolute_e_ = code == 90;
-            break;
-        case 92: {
-            Point place = planner_.target();
-            for (std::size_t axis = 0; axis < 4; ++axis) {
-                if (parameter(text, "XYZE"[axis], value)) {
-                    place[axis] = value;
-                }
-            }
-            planner_.place(place);
-            break;
-        }
-        default:
-            if (code > 100 || code < 0) {
-                out_ += "echo:Unknown command: \"" + text + "\"\n";
-            }
-    }
-}
-
-void MarlinBoard::move(const std::string& text, Time /*now*/) {
-    target_ = planner_.target();
-    double value = 0;
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-        if (parameter(text, "XYZE"[axis], value)) {
-            const bool absolute = axis == kE ? absolute_e_ : absolute_;
-            target_[axis] = absolute ? value : target_[axis] + value;
-        }
-    }
-    if (parameter(text, 'F', value) && value > 0) {
-        feed_mm_per_s_ = value / 60;
-    }
-    pending_speed_ = feed_mm_per_s_;
-    wait_ = Wait::Slot;
-}
-
-void MarlinBoard::miscellaneous(int code, const std::string& text, Time now) {
-    switch (code) {
-        case 0:
-        case 1:
-            wait_ = Wait::User;
-            out_ += "echo:busy: paused for user\n";
-            break;
-        case 82:
-        case 83:
-            absolute_e_ = code == 82;
-            break;
-        case 104:
-        case 109:
-            heat(nozzle_, text, code == 109, now);
-            break;
-        case 140:
-        case 190:
-            heat(bed_, text, code == 190, now);
-            break;
-        case 112:
-            halt();
-            break;
-        case 115:
-            out_ +=
-                "FIRMWARE_NAME:Marlin 2.0.9 (virtual) SOURCE_CODE_URL:example.invalid "
-                "PROTOCOL_VERSION:1.0 MACHINE_TYPE:Virtual Marlin EXTRUDER_COUNT:1 "
-                "UUID:00000000-0000-0000-0000-000000000000\nCap:AUTOREPORT_TEMP:1\n";
-            out_ += std::string("Cap:EMERGENCY_PARSER:") + (options_.emergency_parser ? "1" : "0") +
-                    "\nCap:HOST_ACTION_COMMANDS:0\n";
-            break;
-        case 155: {
-            double seconds = 0;
-            (void)parameter(text, 'S', seconds);
-            report_seconds_ = static_cast<int>(std::clamp(seconds, 0.0, 60.0));
-            next_report_ = now + std::chrono::seconds(report_seconds_);
-            break;
-        }
-        case 400:
-            wait_ = Wait::Drain;
-            break;
-        default:
-            break;
-    }
-}
-
-void MarlinBoard::heat(Heater& heater, const std::string& text, bool wait, Time /*now*/) {
-    double value = 0;
-    if (parameter(text, 'S', value) || parameter(text, 'R', value)) {
-        heater.target = value;
-    }
-    if (options_.instant) {
-        heater.celsius = heater.target;
-    }
-    if (wait) {
-        wait_ = Wait::Until;
-        heating_ = true;
-    }
-}
-
-void MarlinBoard::warm(Time now) {
-    const double seconds = static_cast<double>((now - warmed_).count()) / 1e9 * options_.speed;
-    warmed_ = now;
-    for (Heater* heater : {&nozzle_, &bed_}) {
-        const double goal = std::max(heater->target, 21.0);
-        const double step = options_.instant ? 1e9 : kDegreesPerSecond * seconds;
-        heater->celsius += std::clamp(goal - heater->celsius, -step, step);
-    }
-}
-
-std::string MarlinBoard::temperatures() const {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "T:%.2f /%.2f B:%.2f /%.2f @:0 B@:0", nozzle_.celsius,
-                  nozzle_.target, bed_.celsius, bed_.target);
-    return text.data();
-}
-
-std::string MarlinBoard::place_text(Time now) const {
-    const Point at = planner_.position(now);
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "X:%.2f Y:%.2f Z:%.2f E:%.2f Count X:%.0f Y:%.0f Z:%.0f", at[0], at[1], at[2],
-                  at[kE], at[0] * 80, at[1] * 80, at[2] * 400);
-    return text.data();
 }
 
 std::optional<Time> MarlinBoard::next() const {

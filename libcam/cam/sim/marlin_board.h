@@ -7,6 +7,7 @@
 #include <array>
 #include <deque>
 #include <string>
+#include <vector>
 
 namespace cam::sim {
 
@@ -33,6 +34,14 @@ class MarlinBoard final : public Board {
 
     [[nodiscard]] Point position(Time now) const { return planner_.position(now); }
 
+    [[nodiscard]] double feed_percent() const { return feed_percent_; }
+
+    /// Choices that it was told by M876, in their order.
+    [[nodiscard]] const std::vector<int>& answers() const { return answers_; }
+
+    /// Says something of its own accord.
+    void say(std::string_view line) { out_ += std::string(line) + "\n"; }
+
   private:
     enum class Wait { None, Slot, Drain, Until, User };
 
@@ -49,7 +58,7 @@ class MarlinBoard final : public Board {
     void start(const std::string& text, Time now);
     void general(int code, const std::string& text, Time now);
     void miscellaneous(int code, const std::string& text, Time now);
-    void move(const std::string& text, Time now);
+    void move(int code, const std::string& text);
     void finish(Time now);
     void heat(Heater& heater, const std::string& text, bool wait, Time now);
     void warm(Time now);
@@ -77,8 +86,11 @@ class MarlinBoard final : public Board {
     Wait wait_ = Wait::None;
     Time until_{};
     bool heating_ = false;
-    Point target_{};
+    std::vector<Point> chords_;  ///< of the current move; one when it is straight
+    std::size_t chord_ = 0;
     double pending_speed_ = 0;
+    double feed_percent_ = 100;
+    std::vector<int> answers_;  ///< to prompts
 
     long last_number_ = 0;
     long refused_ = 0;

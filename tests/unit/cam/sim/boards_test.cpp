@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/sim/arc.h"
 #include "cam/sim/faults.h"
 #include "cam/sim/grbl_board.h"
 #include "cam/sim/log_replay.h"
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace {
@@ -184,6 +186,39 @@ TEST(LogReplay, GivesTheAnswersOfTheLog) {
     EXPECT_EQ(board.take_output(), "ok\n");
     EXPECT_TRUE(board.done());
     EXPECT_FALSE(LogReplay::read("nonsense\n"));
+}
+
+TEST(Arc, IsAsLongAsItsFormulaSays) {
+    const auto length = [](const cam::sim::Arc& arc) {
+        double sum = 0;
+        cam::sim::Point last = arc.from;
+        for (const cam::sim::Point& point : cam::sim::arc_points(arc, 0.002)) {
+            sum += std::hypot(point[0] - last[0], point[1] - last[1], point[2] - last[2]);
+            EXPECT_NEAR(std::hypot(point[0], point[1]), 10, 1e-9);
+            last = point;
+        }
+        EXPECT_EQ(last, arc.to);
+        return sum;
+    };
+    const cam::sim::Point east{10, 0, 0};
+    const cam::sim::Point north{0, 10, 0};
+    const double turn = 2 * 3.14159265358979 * 10;
+    EXPECT_NEAR(length({east, north, 0, 1, 0, 0, false}), turn / 4, 0.01);
+    EXPECT_NEAR(length({east, north, 0, 1, 0, 0, true}), turn * 3 / 4, 0.02);
+    EXPECT_NEAR(length({east, east, 0, 1, 0, 0, true}), turn, 0.02);
+    EXPECT_NEAR(length({east, {10, 0, 7}, 0, 1, 0, 0, false}), std::hypot(turn, 7), 0.02);
+}
+
+TEST(Arc, ByRadiusTakesTheShorterWayUnlessTheRadiusIsNegative) {
+    for (const bool clockwise : {false, true}) {
+        cam::sim::Arc arc{{10, 0}, {0, 10}, 0, 1, 0, 0, clockwise};
+        ASSERT_TRUE(cam::sim::centre_of(arc, 10));
+        EXPECT_NEAR(arc.centre_u, clockwise ? 10 : 0, 1e-9);
+        EXPECT_NEAR(arc.centre_v, clockwise ? 10 : 0, 1e-9);
+        ASSERT_TRUE(cam::sim::centre_of(arc, -10));
+        EXPECT_NEAR(arc.centre_u, clockwise ? 0 : 10, 1e-9);
+        EXPECT_FALSE(cam::sim::centre_of(arc, 5));
+    }
 }
 
 }  // namespace
