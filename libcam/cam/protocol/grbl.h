@@ -40,7 +40,7 @@ class Grbl final : public Protocol {
     [[nodiscard]] const Status& status() const override { return status_; }
 
   private:
-    enum class Step { Banner, Look, Version, Settings, Offsets, Done };
+    enum class Step { Banner, Look, Version, Settings, Offsets, Homing, Done };
     /// On the way into and out of check mode.
     enum class Check { None, Entering, Reading, Leaving, AwaitingBanner };
 
@@ -53,6 +53,9 @@ class Grbl final : public Protocol {
     void take_facts(const GrblReply& reply);
     void enter(Step step, Instant now);
     void say_step(Instant now);
+    void known();
+    void resume(Instant now);
+    void stop(Wish wish, Instant now);
     void begin_check(Instant now);
     void begin_running(Instant now);
     void fill(Instant now);
@@ -78,6 +81,7 @@ class Grbl final : public Protocol {
     int step_tries_ = 0;
     Instant step_until_{};
     bool saw_banner_ = false;
+    bool offers_homing_ = false;  ///< the question is open
 
     Check check_ = Check::None;
     Instant check_until_{};

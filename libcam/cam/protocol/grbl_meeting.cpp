@@ -13,6 +13,7 @@ namespace {
 
 constexpr Instant kStepWait = 1s;
 constexpr int kStepTries = 5;
+constexpr Instant kHomingWait = 5min;
 constexpr char kFeedReset = '\x90';
 constexpr char kFeedUp = '\x91';
 constexpr char kFeedDown = '\x92';
@@ -40,7 +41,7 @@ void Grbl::meet(Meeting /*meeting*/, Instant now) {
     splitter_.clear();
     in_flight_.clear();
     bytes_in_flight_ = 0;
-    settling_ = halting_ = saw_banner_ = false;
+    settling_ = halting_ = saw_banner_ = offers_homing_ = false;
     check_ = Check::None;
     work_offset_.reset();
     if (options_.expects_banner) {
@@ -62,21 +63,34 @@ void Grbl::enter(Step step, Instant now) {
     step_ = step;
     step_tries_ = 0;
     if (step == Step::Done) {
-        const auto homing = identity_.settings.find(22);
-        const bool alarmed = status_.state.starts_with("Alarm");
-        identity_.homed = !alarmed || (homing != identity_.settings.end() && homing->second == 0);
-        identity_.homed = identity_.homed && !alarmed;
-        identity_.busy = !alarmed && !status_.state.starts_with("Idle");
-        if (identity_.axes.empty()) {
-            identity_.axes = std::string("XYZABC").substr(
-                0, static_cast<std::size_t>(std::max(status_.axes, 3)));
-        }
-        phase_ = Phase::Ready;
-        emit(Event::Kind::Identified);
-        emit(Event::Kind::Ready);
+        known();
         return;
     }
     say_step(now);
+}
+
+/// Everything is told. A machine that is locked until it is homed may be homed from here.
+void Grbl::known() {
+    const auto homing = identity_.settings.find(22);
+    const bool can_home = homing != identity_.settings.end() && homing->second != 0;
+    const bool alarmed = status_.state.starts_with("Alarm");
+    identity_.homed = !alarmed;
+    identity_.busy = !alarmed && !status_.state.starts_with("Idle");
+    if (identity_.axes.empty()) {
+        identity_.axes =
+            std::string("XYZABC").substr(0, static_cast<std::size_t>(std::max(status_.axes, 3)));
+    }
+    if (alarmed && can_home && options_.offers_homing) {
+        offers_homing_ = true;
+        phase_ = Phase::Asking;
+        emit(Event::Kind::Asked,
+             "the machine is locked until it is homed. Home it now? It runs to its switches: its "
+             "way must be free");
+        return;
+    }
+    phase_ = Phase::Ready;
+    emit(Event::Kind::Identified);
+    emit(Event::Kind::Ready);
 }
 
 void Grbl::say_step(Instant now) {
@@ -86,9 +100,19 @@ void Grbl::say_step(Instant now) {
             "the machine does not answer: is this its port, its baud rate, and is it switched on?");
         return;
     }
+    if (step_ == Step::Homing) {
+        if (step_tries_ > 1) {
+            fail("protocol.homing_failed", "the machine has not finished its homing in 5 minutes");
+            return;
+        }
+        step_until_ = now + kHomingWait;
+        out_.bytes += "$H\n";
+        return;
+    }
     step_until_ = now + std::max(kStepWait, std::min(options_.silence, Instant(5s)));
     switch (step_) {
         case Step::Banner:
+        case Step::Homing:
         case Step::Done:
             break;
         case Step::Look:
@@ -129,7 +153,13 @@ void Grbl::meeting_reply(const GrblReply& reply, Instant now) {
             enter(Step::Offsets, now);
         } else if (step_ == Step::Offsets) {
             enter(Step::Done, now);
+        } else if (step_ == Step::Homing && reply.kind == Kind::Ok) {
+            enter(Step::Look, now);
+        } else if (step_ == Step::Homing) {
+            fail("protocol.homing_failed", "homing was refused: " + grbl_error_words(reply.number));
         }
+    } else if (reply.kind == Kind::Alarm && step_ == Step::Homing) {
+        fail("protocol.homing_failed", "homing failed: " + grbl_alarm_words(reply.number));
     }
 }
 
@@ -162,20 +192,10 @@ void Grbl::wish(Wish wish, Instant now) {
     if (is_over(phase_) || phase_ == Phase::Closed) {
         return;
     }
-    const bool moving = phase_ == Phase::Running || phase_ == Phase::Paused ||
-                        phase_ == Phase::Asking || phase_ == Phase::Checking;
     switch (wish) {
         case Wish::Stop:
         case Wish::Cancel:
-            if (!moving && phase_ != Phase::Stopping) {
-                phase_ = Phase::Stopped;
-                emit(Event::Kind::Stopped, "before the first line");
-            } else if (!halting_) {
-                halt({}, "by the operator: held, then reset; spindle and coolant are off", now);
-                halt_until_ = now + (wish == Wish::Stop ? Instant(300ms) : Instant(2s));
-            } else if (wish == Wish::Stop) {
-                finish_halt();
-            }
+            stop(wish, now);
             break;
         case Wish::Pause:
             if (phase_ == Phase::Running) {
@@ -187,17 +207,7 @@ void Grbl::wish(Wish wish, Instant now) {
             }
             break;
         case Wish::Resume:
-            if (phase_ == Phase::Paused) {
-                out_.urgent += '~';
-                pause_at_ = now;
-                phase_ = Phase::Running;
-                emit(Event::Kind::Resumed);
-            } else if (phase_ == Phase::Asking) {
-                phase_ = Phase::Running;
-                last_ok_ = now;
-                emit(Event::Kind::Resumed);
-                fill(now);
-            }
+            resume(now);
             break;
         case Wish::FeedUp:
             out_.urgent += kFeedUp;
@@ -208,6 +218,44 @@ void Grbl::wish(Wish wish, Instant now) {
         case Wish::FeedReset:
             out_.urgent += kFeedReset;
             break;
+        default:
+            break;
+    }
+}
+
+void Grbl::stop(Wish wish, Instant now) {
+    const bool moving = phase_ == Phase::Running || phase_ == Phase::Paused ||
+                        (phase_ == Phase::Asking && !offers_homing_) || phase_ == Phase::Checking ||
+                        step_ == Step::Homing;
+    if (!moving && phase_ != Phase::Stopping) {
+        phase_ = Phase::Stopped;
+        emit(Event::Kind::Stopped, "before the first line");
+    } else if (!halting_) {
+        halt({}, "by the operator: held, then reset; spindle and coolant are off", now);
+        halt_until_ = now + (wish == Wish::Stop ? Instant(300ms) : Instant(2s));
+        if (step_ == Step::Homing) {
+            finish_halt();  // a homing cycle knows no hold
+        }
+    } else if (wish == Wish::Stop) {
+        finish_halt();
+    }
+}
+
+void Grbl::resume(Instant now) {
+    if (offers_homing_) {
+        offers_homing_ = false;
+        phase_ = Phase::Meeting;
+        enter(Step::Homing, now);
+    } else if (phase_ == Phase::Paused) {
+        out_.urgent += '~';
+        pause_at_ = now;
+        phase_ = Phase::Running;
+        emit(Event::Kind::Resumed);
+    } else if (phase_ == Phase::Asking) {
+        phase_ = Phase::Running;
+        last_ok_ = now;
+        emit(Event::Kind::Resumed);
+        fill(now);
     }
 }
 

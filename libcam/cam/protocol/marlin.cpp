@@ -30,7 +30,7 @@ void Marlin::run(std::size_t first, Instant now) {
     acked_ = next_ = sent_ = first;
     phase_ = Phase::Running;
     window_ = 1;
-    last_sign_ = last_send_ = now;
+    last_sign_ = last_send_ = poll_at_ = now;
     fill(now);
 }
 
@@ -41,7 +41,9 @@ void Marlin::lose_link(Instant /*now*/) {
     phase_ = Phase::Closed;
     splitter_.clear();
     query_pending_ = fault_pending_ = false;
-    swallow_ok_ = 0;
+    swallow_ok_ = late_temperatures_ = 0;
+    asides_.clear();
+    aside_.clear();
     hold_until_.reset();
 }
 
@@ -122,6 +124,11 @@ void Marlin::take_report(const MarlinReply& reply) {
     if (reply.position_mm) {
         status_.position_mm = *reply.position_mm;
         status_.axes = 3;
+        position_told_ = true;
+        ++status_.version;
+    }
+    if (reply.feed_percent) {
+        status_.feed_override = *reply.feed_percent / 100;
         ++status_.version;
     }
 }
@@ -147,6 +154,10 @@ void Marlin::on_ok(const MarlinReply& reply, Instant now) {
         // The answer to a refused line whose number was lost on the way.
         fault_pending_ = false;
         query(now);
+    } else if (!aside_.empty() && acked_ == next_ && !query_pending_) {
+        aside_answered();
+    } else if (late_temperatures_ > 0 && !reply.heaters.empty()) {
+        --late_temperatures_;
     } else if (query_pending_ && !reply.heaters.empty() &&
                (acked_ >= next_ || !text(acked_).starts_with("M105"))) {
         fail("protocol.machine_reset",
@@ -163,6 +174,9 @@ void Marlin::acknowledge(std::size_t entries, Instant now) {
     bad_resends_ = 0;
     if (acked_ == next_) {
         bytes_in_flight_ = 0;
+    }
+    if (forward && acked_ <= cut_ && job_.expected(acked_ - 1) != nullptr) {
+        compare_position(acked_ - 1);
     }
     if (forward && kind(acked_ - 1) == LineKind::Ask && phase_ == Phase::Running) {
         phase_ = Phase::Asking;
@@ -251,13 +265,18 @@ void Marlin::on_banner(Instant now) {
 
 void Marlin::query(Instant now) {
     query_pending_ = true;
+    if (!aside_.empty()) {
+        late_temperatures_ += aside_ == "M105" ? 1 : 0;
+        aside_.clear();
+    }
     // The newline ends what may have been left of a line whose end was lost.
     out_.bytes += "\n" + numbered_line(1, "M105");
     last_send_ = now;
 }
 
 bool Marlin::may_send() const {
-    if (next_ >= end() || hold_until_ || query_pending_ ||
+    if (next_ >= end() || hold_until_ || query_pending_ || !aside_.empty() ||
+        (!asides_.empty() && phase_ != Phase::Stopping) ||
         (phase_ == Phase::Paused && next_ >= sent_)) {
         return false;
     }
@@ -277,6 +296,9 @@ bool Marlin::may_send() const {
 }
 
 void Marlin::fill(Instant now) {
+    if (may_send_aside()) {
+        send_aside(now);
+    }
     while (may_send()) {
         send_entry(now);
     }
@@ -286,6 +308,7 @@ void Marlin::send_entry(Instant now) {
     const std::string line = numbered_line(kFirstNumber + static_cast<long>(next_), text(next_));
     bytes_in_flight_ += line.size();
     out_.bytes += line;
+    position_told_ = false;
     ++next_;
     sent_ = std::max(sent_, next_);
     last_send_ = now;

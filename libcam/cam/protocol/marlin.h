@@ -5,6 +5,7 @@
 #include "cam/protocol/marlin_reply.h"
 #include "cam/protocol/protocol.h"
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,16 @@ class Marlin final : public Protocol {
     void check_end(Instant now);
     void count_resend(Instant now);
     void cancel(Instant now);
+    void stop(Instant now);
+    void change_feed(Wish wish, Instant now);
+    void add_aside(std::string text, Instant now);
+    void send_aside(Instant now);
+    void aside_answered();
+    [[nodiscard]] bool may_talk_aside() const;
+    [[nodiscard]] bool may_send_aside() const;
+    [[nodiscard]] bool waits_for_answer() const;
+    void choose(int index, Instant now);
+    void compare_position(std::size_t entry);
     void pause(const std::string& why);
     void resume(Instant now);
     void silence(Instant now);
@@ -116,7 +127,19 @@ class Marlin final : public Protocol {
 
     bool asks_for_m108_ = false;
     std::string prompt_;
+    std::vector<std::string> choices_;  ///< of the prompt
     bool prompted_ = false;
+
+    // Lines beside the job: without a number, so that the job's numbers stay what they are, and
+    // only while no line of the job is on its way, so that every answer has one owner.
+    std::deque<std::string> asides_;
+    std::string aside_;          ///< on its way; empty: none
+    int late_temperatures_ = 0;  ///< answers to M105 that may still come
+    bool polls_ = false;         ///< the board does not report temperatures by itself
+    Instant poll_at_{};
+    double feed_percent_ = 100;  ///< that was asked for
+    int feed_tries_ = 0;
+    bool position_told_ = false;  ///< since the job asked for it
 
     Instant last_sign_{};
     Instant last_send_{};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Instant kStepWait = 2s;  ///< for the answer to a line while meeting
 constexpr int kStepTries = 6;
-constexpr Instant kKillWait = 2s;
+constexpr Instant kTemperaturesEvery = 5s;
 constexpr int kSilenceDoublings = 8;
 
 }  // namespace
@@ -82,12 +82,13 @@ void Marlin::next_step(Instant now) {
             break;
         case Step::Name: {
             emit(Event::Kind::Identified);
+            const auto reports = identity_.capabilities.find("AUTOREPORT_TEMP");
+            const bool can = reports != identity_.capabilities.end() && reports->second == "1";
+            polls_ = !can;
             if (meeting_ == Meeting::Again) {
                 enter(Step::Confirm, now);
                 break;
             }
-            const auto reports = identity_.capabilities.find("AUTOREPORT_TEMP");
-            const bool can = reports != identity_.capabilities.end() && reports->second == "1";
             enter(can ? Step::Autoreport : Step::Number, now);
             break;
         }
@@ -170,21 +171,7 @@ void Marlin::wish(Wish wish, Instant now) {
     }
     switch (wish) {
         case Wish::Stop:
-            out_.discard = true;
-            out_.bytes.clear();
-            out_.urgent = "\nM112\n";
-            phase_ = Phase::Stopping;
-            killed_ = true;
-            cut_ = next_;
-            tail_.clear();
-            hold_until_.reset();
-            stop_until_ = now + kKillWait;
-            if (!identity_.emergency_parser) {
-                emit(Event::Kind::Warning,
-                     "this firmware has no emergency parser: the stop waits behind the lines that "
-                     "it "
-                     "has already taken. Use the machine's own switch");
-            }
+            stop(now);
             break;
         case Wish::Cancel:
             cancel(now);
@@ -197,8 +184,13 @@ void Marlin::wish(Wish wish, Instant now) {
         case Wish::Resume:
             resume(now);
             break;
+        case Wish::FeedUp:
+        case Wish::FeedDown:
+        case Wish::FeedReset:
+            change_feed(wish, now);
+            break;
         default:
-            emit(Event::Kind::Notice, "Marlin's speed is changed with the machine's own knob");
+            choose(static_cast<int>(wish) - static_cast<int>(Wish::FirstChoice), now);
     }
 }
 
@@ -211,9 +203,7 @@ void Marlin::pause(const std::string& why) {
 
 void Marlin::resume(Instant now) {
     if (prompted_) {
-        prompted_ = false;
-        prompt_.clear();
-        out_.urgent += "\nM876 S0\n";
+        choose(0, now);
         return;
     }
     if (asks_for_m108_) {
@@ -250,30 +240,6 @@ void Marlin::cancel(Instant now) {
     fill(now);
 }
 
-void Marlin::on_action(std::string_view action, Instant now) {
-    if (action == "pause" || action == "paused") {
-        pause("by the machine");
-    } else if ((action == "resume" || action == "resumed") && phase_ == Phase::Paused) {
-        resume(now);
-    } else if (action == "cancel") {
-        cancel(now);
-    } else if (action.starts_with("prompt_begin")) {
-        prompt_ = action.substr(std::min(action.size(), std::string_view("prompt_begin ").size()));
-    } else if (action.starts_with("prompt_button") || action.starts_with("prompt_choice")) {
-        const std::size_t name = std::string_view("prompt_button ").size();
-        prompt_ += " [" + std::string(action.substr(std::min(action.size(), name))) + "]";
-        prompt_.resize(std::min<std::size_t>(prompt_.size(), 400));
-    } else if (action == "prompt_show") {
-        prompted_ = true;
-        emit(Event::Kind::Asked, prompt_ + " (yes answers with the first choice)");
-    } else if (action == "prompt_end") {
-        prompted_ = false;
-        prompt_.clear();
-    } else {
-        emit(Event::Kind::Warning, "the machine reports: " + std::string(action));
-    }
-}
-
 void Marlin::silence(Instant now) {
     if (now - last_sign_ >= options_.patience) {
         fail("protocol.machine_silent",
@@ -304,17 +270,23 @@ void Marlin::tick(Instant now) {
             say_step(now);
         }
     }
+    if (polls_ && may_talk_aside() && now >= poll_at_) {
+        poll_at_ = now + kTemperaturesEvery;
+        add_aside("M105", now);
+    }
     if (phase_ == Phase::Stopping && now >= stop_until_) {
         phase_ = Phase::Stopped;
         emit(Event::Kind::Stopped, "the machine did not confirm");
     }
-    const bool waiting =
-        !killed_ &&
-        (phase_ == Phase::Running || phase_ == Phase::Stopping || phase_ == Phase::Paused) &&
-        (acked_ < next_ || query_pending_);
-    if (waiting && now >= std::max(last_sign_, last_send_) + silence_) {
+    if (waits_for_answer() && now >= std::max(last_sign_, last_send_) + silence_) {
         silence(now);
     }
+}
+
+bool Marlin::waits_for_answer() const {
+    const bool at_work = phase_ == Phase::Running || phase_ == Phase::Stopping ||
+                         phase_ == Phase::Paused || phase_ == Phase::Asking;
+    return !killed_ && at_work && (acked_ < next_ || query_pending_ || !aside_.empty());
 }
 
 std::optional<Instant> Marlin::deadline() const {
@@ -326,8 +298,10 @@ std::optional<Instant> Marlin::deadline() const {
     if (phase_ == Phase::Stopping) {
         consider(stop_until_);
     }
-    if ((phase_ == Phase::Running || phase_ == Phase::Stopping || phase_ == Phase::Paused) &&
-        !killed_ && (acked_ < next_ || query_pending_)) {
+    if (polls_ && may_talk_aside()) {
+        consider(poll_at_);
+    }
+    if (waits_for_answer()) {
         consider(std::max(last_sign_, last_send_) + silence_);
     }
     return soonest;

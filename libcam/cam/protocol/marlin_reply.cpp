@@ -194,6 +194,9 @@ MarlinReply read_marlin_reply(std::string_view line) {
     } else if (line.starts_with("T:") || line.starts_with("T0:") || line.starts_with("B:")) {
         reply.kind = Kind::Report;
         read_heaters(line, reply.heaters);
+    } else if (take_word(rest, "FR:")) {
+        reply.feed_percent = take_number<double>(rest);
+        reply.kind = reply.feed_percent ? Kind::Report : Kind::Text;
     } else if (line.starts_with("X:")) {
         reply.position_mm = read_position(line);
         reply.kind = reply.position_mm ? Kind::Report : Kind::Text;

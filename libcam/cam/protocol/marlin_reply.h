@@ -36,6 +36,7 @@ struct MarlinReply {
     std::optional<int> commands_free;  ///< "B3"
     std::vector<Heater> heaters;
     std::optional<AxisValues> position_mm;  ///< "X: Y: Z: E:"; NaN where absent
+    std::optional<double> feed_percent;     ///< "FR:110%"
 };
 
 /// Reads one line without its end. Whatever the bytes: never throws. O(length).

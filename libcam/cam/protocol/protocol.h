@@ -40,8 +40,15 @@ enum class Wish {
     Stop,    ///< at once, whatever it costs
     FeedUp,  ///< overrides, 10 % a step
     FeedDown,
-    FeedReset
+    FeedReset,
+    FirstChoice,  ///< of a question with choices; see choice()
+    LastChoice = FirstChoice + 8
 };
+
+/// The wish to answer a question with its choice `index`, from 0 up to 8.
+[[nodiscard]] constexpr Wish choice(int index) {
+    return static_cast<Wish>(static_cast<int>(Wish::FirstChoice) + index);
+}
 
 /// Who is there.
 struct Identity {
@@ -102,7 +109,8 @@ struct Event {
     Kind kind = Kind::Notice;
     std::string text;
     std::string code;
-    long line = 0;  ///< entry of the job; see kind
+    long line = 0;                       ///< entry of the job; see kind
+    std::vector<std::string> choices{};  ///< of a question that is more than yes or no
 };
 
 /// What is to be done for the conversation. The caller takes it after every call.
@@ -134,6 +142,7 @@ struct LinkOptions {
     int window = 1;                    ///< lines in flight at most (Marlin)
     double max_resend_fraction = 0.1;  ///< of the last 100 lines; more: pause
     bool precheck = true;              ///< run the job in check mode first (GRBL)
+    bool offers_homing = true;         ///< ask whether a locked machine is to be homed (GRBL)
     double position_tolerance_mm = 0.01;
 };
 

@@ -35,6 +35,7 @@ struct MarlinAtWork : testing::Test {
     JobLines job = three_moves();
     Marlin conversation{job, at_once()};
     Instant now{};
+    bool reports = true;
 
     std::string hear(const char* text) {
         conversation.receive(text, now);
@@ -44,7 +45,11 @@ struct MarlinAtWork : testing::Test {
     void SetUp() override {
         conversation.meet(Meeting::Fresh, now);
         hear("ok\n");
-        hear("FIRMWARE_NAME:Marlin 2 MACHINE_TYPE:Test EXTRUDER_COUNT:1\nok\n");
+        hear("FIRMWARE_NAME:Marlin 2 MACHINE_TYPE:Test EXTRUDER_COUNT:1\n");
+        if (reports) {
+            hear("Cap:AUTOREPORT_TEMP:1\nok\n");
+        }
+        hear("ok\n");
         hear("ok\n");
         hear("Error:Line Number is not Last Line Number+1, Last Line: 10000\nResend: 10001\nok\n");
         ASSERT_EQ(conversation.phase(), Phase::Ready);
@@ -52,6 +57,11 @@ struct MarlinAtWork : testing::Test {
         conversation.run(0, now);
         ASSERT_EQ(bytes_of(conversation), numbered_line(10001, "G1X1F600"));
     }
+};
+
+/// A board that tells its temperatures only when it is asked.
+struct MarlinWithoutReports : MarlinAtWork {
+    MarlinWithoutReports() { reports = false; }
 };
 
 TEST_F(MarlinAtWork, SendsTheNextLineOnlyWhenTheLastIsAnsweredFor) {
@@ -138,6 +148,117 @@ TEST_F(MarlinAtWork, ThePauseKeepsLinesBackAndTheMachineMayAskForOne) {
     EXPECT_EQ(conversation.phase(), Phase::Paused);
     EXPECT_EQ(hear("ok\n"), "");
     EXPECT_EQ(hear("//action:resume\n"), numbered_line(10002, "G1X2"));
+}
+
+TEST_F(MarlinAtWork, TheFeedIsChangedBetweenLinesAndReadBack) {
+    conversation.wish(Wish::FeedUp, now);
+    conversation.wish(Wish::FeedUp, now);
+    EXPECT_EQ(bytes_of(conversation), "");  // a line of the job is on its way
+    EXPECT_EQ(hear("ok\n"), "M220 S120\n");
+    EXPECT_EQ(hear("ok\n"), "M220\n");
+    EXPECT_EQ(hear("FR:120%\nok\n"), numbered_line(10002, "G1X2"));
+    EXPECT_DOUBLE_EQ(conversation.status().feed_override, 1.2);
+    EXPECT_EQ(conversation.progress().acked, 1U);
+}
+
+TEST_F(MarlinAtWork, AFeedThatTheMachineDoesNotTellIsAskedForThreeTimesAndThenSaid) {
+    conversation.wish(Wish::FeedDown, now);
+    hear("ok\n");
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(hear("ok\n"), "M220\n");
+        EXPECT_EQ(hear("FR:100%\nok\n"), "M220 S90\n");
+    }
+    hear("ok\n");
+    conversation.receive("FR:100%\nok\n", now);
+    const Output out = conversation.take_output();
+    ASSERT_FALSE(out.events.empty());
+    EXPECT_EQ(out.events.back().kind, Event::Kind::Warning);
+    EXPECT_EQ(out.bytes, numbered_line(10002, "G1X2"));
+}
+
+TEST_F(MarlinAtWork, ALostAnswerBesideTheJobIsFoundOutByTheQuery) {
+    conversation.wish(Wish::FeedUp, now);
+    hear("ok\n");
+    now += 1500ms;
+    conversation.tick(now);
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    EXPECT_EQ(
+        hear("Error:Line Number is not Last Line Number+1, Last Line: 10001\nResend: 10002\nok\n"),
+        "M220\n");
+    EXPECT_EQ(hear("FR:110%\nok\n"), numbered_line(10002, "G1X2"));
+}
+
+TEST_F(MarlinWithoutReports, TemperaturesAreAskedForWhereTheyAreNotReported) {
+    conversation.tick(now);
+    EXPECT_EQ(bytes_of(conversation), "");
+    EXPECT_EQ(hear("ok\n"), "M105\n");
+    EXPECT_EQ(hear("ok T:200.0 /210.0 B:60.0 /60.0\n"), numbered_line(10002, "G1X2"));
+    ASSERT_EQ(conversation.status().heaters.size(), 2U);
+    EXPECT_EQ(conversation.progress().acked, 1U);
+    EXPECT_EQ(hear("ok\n"), numbered_line(10003, "G1X3"));
+}
+
+TEST_F(MarlinWithoutReports, ALateTemperatureIsNotTakenForABoardThatWasReset) {
+    conversation.tick(now);
+    (void)bytes_of(conversation);
+    EXPECT_EQ(hear("ok\n"), "M105\n");
+    now += 1500ms;
+    conversation.tick(now);
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    hear("ok T:200.0 /210.0\n");
+    EXPECT_EQ(conversation.phase(), Phase::Running);
+    EXPECT_EQ(
+        hear("Error:Line Number is not Last Line Number+1, Last Line: 10001\nResend: 10002\nok\n"),
+        numbered_line(10002, "G1X2"));
+}
+
+TEST_F(MarlinAtWork, AQuestionOfTheMachineIsAnsweredWithTheChosenAnswer) {
+    conversation.receive(
+        "//action:prompt_begin Filament runout\n//action:prompt_button Purge more\n"
+        "//action:prompt_button Continue\n//action:prompt_show\n",
+        now);
+    const Output asked = conversation.take_output();
+    ASSERT_EQ(asked.events.size(), 1U);
+    EXPECT_EQ(asked.events[0].text, "Filament runout");
+    EXPECT_EQ(asked.events[0].choices, (std::vector<std::string>{"Purge more", "Continue"}));
+    conversation.wish(choice(2), now);  // there is no third
+    EXPECT_EQ(bytes_of(conversation), "");
+    conversation.wish(choice(1), now);
+    EXPECT_EQ(bytes_of(conversation), "\nM876 S1\n");
+    conversation.wish(choice(1), now);  // it has been answered
+    EXPECT_EQ(bytes_of(conversation), "");
+}
+
+TEST_F(MarlinAtWork, TheEndOfTheJobComparesThePosition) {
+    for (const char* place : {"X:3.00 Y:0.00 Z:0.00 E:0.00 Count X:240 Y:0 Z:0\n",
+                              "X:2.50 Y:0.00 Z:0.00 E:0.00 Count X:200 Y:0 Z:0\n", ""}) {
+        JobLines with_end = three_moves();
+        with_end.add("M114", 0, LineKind::Drain);
+        AxisValues expected{};
+        expected.fill(std::numeric_limits<double>::quiet_NaN());
+        expected[0] = 3;
+        with_end.expect(expected);
+        Marlin one(with_end, at_once());
+        one.meet(Meeting::Fresh, now);
+        for (const char* said :
+             {"ok\n", "FIRMWARE_NAME:Marlin 2\nCap:AUTOREPORT_TEMP:1\nok\n", "ok\n", "ok\n",
+              "Error:Line Number is not Last Line Number+1, Last Line: 10000\nResend: "
+              "10001\nok\n"}) {
+            one.receive(said, now);
+        }
+        one.allow(4, now);
+        one.run(0, now);
+        one.receive("ok\nok\nok\n", now);
+        (void)one.take_output();
+        one.receive(std::string(place) + "ok\n", now);
+        const Output out = one.take_output();
+        EXPECT_EQ(one.phase(), Phase::Finished);
+        const bool right = std::string(place).starts_with("X:3");
+        ASSERT_EQ(out.events.size(), right ? 1U : 2U) << place;
+        if (!right) {
+            EXPECT_EQ(out.events[0].kind, Event::Kind::Warning);
+        }
+    }
 }
 
 TEST_F(MarlinAtWork, MoreThanTenRequestsForOneLinePause) {
@@ -272,6 +393,51 @@ TEST_F(GrblAtWork, APositionThatDiffersAtASyncPointStops) {
     conversation.receive("<Idle|MPos:3.500,0,0|WCO:0,0,0>\n", now);
     EXPECT_EQ(conversation.take_output().urgent.front(), '!');
     EXPECT_EQ(conversation.phase(), Phase::Stopping);
+}
+
+TEST_F(GrblAtWork, ALockedMachineIsHomedWhenTheOperatorWantsIt) {
+    Grbl conversation(job, options);
+    conversation.meet(Meeting::Fresh, now);
+    hear(conversation, "<Alarm|MPos:0,0,0|WCO:0,0,0>\n", now);
+    hear(conversation, "[VER:1.1h.20190830:]\n[OPT:V,15,20]\nok\n", now);
+    hear(conversation, "$13=0\n$22=1\nok\n", now);
+    conversation.receive("[G54:0,0,0]\nok\n", now);
+    const Output asked = conversation.take_output();
+    ASSERT_EQ(asked.events.size(), 1U);
+    EXPECT_EQ(asked.events[0].kind, Event::Kind::Asked);
+    EXPECT_EQ(asked.bytes, "");
+    // Reports of the alarm are no news meanwhile.
+    hear(conversation, "<Alarm|MPos:0,0,0>\n", now);
+    ASSERT_EQ(conversation.phase(), Phase::Asking);
+    conversation.wish(Wish::Resume, now);
+    EXPECT_EQ(bytes_of(conversation), "$H\n");
+    now += 60s;  // homing takes its time, and says nothing
+    conversation.tick(now);
+    EXPECT_EQ(bytes_of(conversation), "");
+    EXPECT_EQ(hear(conversation, "ok\n", now), "?");
+    hear(conversation, "<Idle|MPos:0,0,0|WCO:0,0,0>\n", now);
+    hear(conversation, "[OPT:V,15,20]\nok\n", now);
+    hear(conversation, "$22=1\nok\n", now);
+    hear(conversation, "[G54:0,0,0]\nok\n", now);
+    EXPECT_EQ(conversation.phase(), Phase::Ready);
+    EXPECT_TRUE(conversation.identity().homed);
+}
+
+TEST_F(GrblAtWork, AHomingThatFailsEndsTheJobBeforeItBegins) {
+    for (const char* answer : {"error:5\n", "ALARM:9\n"}) {
+        Grbl conversation(job, options);
+        conversation.meet(Meeting::Fresh, now);
+        hear(conversation, "<Alarm|MPos:0,0,0|WCO:0,0,0>\n", now);
+        hear(conversation, "ok\n", now);
+        hear(conversation, "$22=1\nok\n", now);
+        hear(conversation, "ok\n", now);
+        conversation.wish(Wish::Resume, now);
+        (void)conversation.take_output();
+        conversation.receive(answer, now);
+        const Output out = conversation.take_output();
+        ASSERT_FALSE(out.events.empty()) << answer;
+        EXPECT_EQ(out.events.back().code, "protocol.homing_failed");
+    }
 }
 
 TEST_F(GrblAtWork, PauseAndOverridesAreBytesOutsideTheCount) {
