@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace {
@@ -25,6 +26,10 @@ Function next(const char* name) {
 }
 
 }  // namespace
+
+namespace tests {
+std::string dtr_changes;  // '+' raised, '-' dropped
+}
 
 extern "C" {
 
@@ -70,6 +75,9 @@ int ioctl(int descriptor, unsigned long request, ...) noexcept {
             return 0;
         }
         if (request == TIOCMBIS || request == TIOCMBIC || request == TIOCMSET) {
+            if (request != TIOCMSET && (*static_cast<int*>(argument) & TIOCM_DTR) != 0) {
+                tests::dtr_changes += request == TIOCMBIS ? '+' : '-';
+            }
             return 0;
         }
     }

@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <pty.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -43,6 +44,25 @@ struct Pty {
 bool readable(const ByteChannel& channel) {
     pollfd watched{channel.descriptor(), POLLIN, 0};
     return ::poll(&watched, 1, 2000) == 1;
+}
+
+/// Whether the line hangs up (DTR drops) when the last program closes it.
+bool hangs_up(const Pty& pty) {
+    termios modes{};
+    EXPECT_EQ(::tcgetattr(pty.slave, &modes), 0);
+    return (modes.c_cflag & HUPCL) != 0;
+}
+
+TEST(Channel, ABoardIsNotResetByClosingItsPortUnlessItIsAskedFor) {
+    const Pty pty;
+    termios modes{};
+    ASSERT_EQ(::tcgetattr(pty.slave, &modes), 0);
+    modes.c_cflag |= HUPCL;
+    ASSERT_EQ(::tcsetattr(pty.slave, TCSANOW, &modes), 0);
+    { ASSERT_TRUE(open_channel(pty.name, {})); }
+    EXPECT_FALSE(hangs_up(pty));
+    { ASSERT_TRUE(open_channel(pty.name, {.reset_on_close = true})); }
+    EXPECT_TRUE(hangs_up(pty));
 }
 
 TEST(Channel, BytesPassUnchangedBothWays) {
