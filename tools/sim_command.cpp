@@ -32,12 +32,14 @@ struct Command {
     long baud = 0;
     cam::sim::BoardOptions board;
     bool no_emergency_parser = false;
+    bool no_autoreport = false;
     std::vector<double> work_offset_mm;
 };
 
 Result<std::unique_ptr<cam::sim::Board>> board_of(const Command& command) {
     cam::sim::BoardOptions options = command.board;
     options.emergency_parser = !command.no_emergency_parser;
+    options.autoreport = !command.no_autoreport;
     if (command.kind == "marlin") {
         return std::make_unique<cam::sim::MarlinBoard>(options);
     }
@@ -150,6 +152,8 @@ Action declare_sim(CLI::App& app, const Common& /*common*/) {
                  "marlin tells line numbers with its answers");
     app.add_flag("--no-emergency-parser", command->no_emergency_parser,
                  "marlin sees a stop only behind what waits");
+    app.add_flag("--no-autoreport", command->no_autoreport,
+                 "marlin tells temperatures only when it is asked");
     return [command](const decomp::Run& run) { return simulate(*command, run); };
 }
 

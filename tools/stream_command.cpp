@@ -54,6 +54,7 @@ Result<Answer> stream(const Command& command, const Common& common, const Run& r
     request->resume = command.decisions.resume;
     request->after_reset = command.decisions.after_reset;
     request->force = command.decisions.force;
+    request->looks = !command.dry_run;
     request->journal = command.decisions.journal;
     request->log = command.decisions.log;
     if (command.from_line > 0) {
@@ -76,7 +77,7 @@ Result<Answer> stream(const Command& command, const Common& common, const Run& r
         return answer;
     }
     run.info(program.summary() + "port " + port);
-    StreamView view(program, {command.yes, common.quiet, command.events});
+    StreamView view(program, {command.yes, common.quiet, common.json, command.events});
     Result<cam::stream::Outcome> outcome = cam::stream::Outcome{};
     std::thread carrier([&] {
         outcome = program.run([&](const cam::stream::Notice& notice) { view.tell(notice); });

@@ -119,7 +119,6 @@ void StreamView::watch(const std::stop_token& stop) {
         post(Wish::Cancel);
         wake();
     });
-    bool reads_keys = true;
     while (true) {
         std::deque<Notice> notices;
         bool ended = false;
@@ -136,25 +135,29 @@ void StreamView::watch(const std::stop_token& stop) {
             return;
         }
         std::array<pollfd, 2> watched{pollfd{wake_, POLLIN, 0},
-                                      pollfd{reads_keys ? STDIN_FILENO : -1, POLLIN, 0}};
+                                      pollfd{reads_keys_ ? STDIN_FILENO : -1, POLLIN, 0}};
         ::poll(watched.data(), watched.size(), -1);
         if ((watched[0].revents & POLLIN) != 0) {
             std::uint64_t count = 0;
             (void)!::read(wake_, &count, sizeof count);
         }
         if (watched[1].revents != 0) {
-            std::array<char, 64> typed{};
-            const ssize_t got = ::read(STDIN_FILENO, typed.data(), typed.size());
-            reads_keys = got > 0;
-            for (ssize_t i = 0; i < got; ++i) {
-                key(typed.at(static_cast<std::size_t>(i)));
-            }
+            read_keys();
         }
-        if (asked_ && !reads_keys && !options_.yes) {
+        if (asked_ && !reads_keys_) {
             asked_ = false;
             say("nobody is there to answer: the job is cancelled (--yes answers with yes)");
             post(Wish::Cancel);
         }
+    }
+}
+
+void StreamView::read_keys() {
+    std::array<char, 64> typed{};
+    const ssize_t got = ::read(STDIN_FILENO, typed.data(), typed.size());
+    reads_keys_ = got > 0;
+    for (ssize_t i = 0; i < got; ++i) {
+        key(typed.at(static_cast<std::size_t>(i)));
     }
 }
 
@@ -169,7 +172,7 @@ void StreamView::key(char c) {
             post(Wish::Resume);
             break;
         case 'n':
-            if (asked_) {
+            if (asked_ && choices_ == 0) {
                 post(Wish::Cancel);
             }
             break;
@@ -189,6 +192,11 @@ void StreamView::key(char c) {
             post(Wish::FeedReset);
             break;
         default:
+            if (c > '0' && static_cast<std::size_t>(c - '0') <= choices_) {
+                asked_ = false;
+                choices_ = 0;
+                post(cam::protocol::choice(c - '1'));
+            }
             break;
     }
 }
@@ -198,7 +206,7 @@ void StreamView::say(const std::string& text) {
         std::fputs("\r\x1b[K", stderr);
         drawn_ = false;
     }
-    if (!text.empty() && !options_.quiet) {
+    if (!text.empty() && !options_.quiet && !options_.json) {
         std::fprintf(stderr, "%s\n", text.c_str());
     }
     std::fflush(stderr);
@@ -221,12 +229,7 @@ void StreamView::show(const Notice& notice) {
     }
     switch (event.kind) {
         case Event::Kind::Asked:
-            asked_ = true;
-            say("? " + event.text + (options_.yes ? " yes (--yes)" : " [y/n]"));
-            if (options_.yes) {
-                asked_ = false;
-                post(Wish::Resume);
-            }
+            ask(event);
             break;
         case Event::Kind::Resent:
             break;
@@ -255,6 +258,25 @@ void StreamView::show(const Notice& notice) {
         case Event::Kind::Stopped:
         case Event::Kind::Failed:
             break;
+    }
+}
+
+/// Among several choices none is the yes: those are for a person, here or at the machine.
+void StreamView::ask(const Event& event) {
+    if (event.choices.size() > 1) {
+        std::string text = "? " + event.text + ":";
+        for (std::size_t i = 0; i < event.choices.size(); ++i) {
+            text += "  [" + std::to_string(i + 1) + "] " + event.choices[i];
+        }
+        choices_ = event.choices.size();
+        say(text + (options_.yes ? "  (--yes does not choose; the machine waits)" : ""));
+        return;
+    }
+    choices_ = 0;
+    asked_ = !options_.yes;
+    say("? " + event.text + (options_.yes ? " yes (--yes)" : " [y/n]"));
+    if (options_.yes) {
+        post(Wish::Resume);
     }
 }
 
@@ -289,7 +311,7 @@ void StreamView::status_line(const Notice& notice) {
     if (progress.resent > 0) {
         text += " resent " + std::to_string(progress.resent);
     }
-    if (terminal_ && !options_.quiet) {
+    if (terminal_ && !options_.quiet && !options_.json) {
         std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
         std::fflush(stderr);
         drawn_ = true;
@@ -297,7 +319,7 @@ void StreamView::status_line(const Notice& notice) {
 }
 
 void StreamView::write_event(const Notice& notice) {
-    if (events_ == nullptr) {
+    if (events_ == nullptr && !options_.json) {
         return;
     }
     Json json{{"event", kind_name(notice)},
@@ -310,6 +332,9 @@ void StreamView::write_event(const Notice& notice) {
     }
     if (!notice.event.code.empty()) {
         json["code"] = notice.event.code;
+    }
+    if (!notice.event.choices.empty()) {
+        json["choices"] = notice.event.choices;
     }
     if (notice.kind == Notice::Kind::Told) {
         json["state"] = notice.status.state;
@@ -324,8 +349,12 @@ void StreamView::write_event(const Notice& notice) {
         json["feed_override"] = notice.status.feed_override;
     }
     const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    std::fwrite(text.data(), 1, text.size(), events_);
-    std::fflush(events_);
+    for (std::FILE* out : {events_, options_.json ? stderr : nullptr}) {
+        if (out != nullptr) {
+            std::fwrite(text.data(), 1, text.size(), out);
+            std::fflush(out);
+        }
+    }
 }
 
 }  // namespace tools

@@ -20,6 +20,7 @@ class StreamView {
     struct Options {
         bool yes = false;  ///< answer every question with yes
         bool quiet = false;
+        bool json = false;  ///< events on stderr, one JSON object a line, for people none
         std::filesystem::path events;  ///< one JSON object a line; empty: none
     };
 
@@ -41,6 +42,8 @@ class StreamView {
   private:
     void wake() const;
     void show(const cam::stream::Notice& notice);
+    void ask(const cam::protocol::Event& event);
+    void read_keys();
     void say(const std::string& text);
     void status_line(const cam::stream::Notice& notice);
     void key(char c);
@@ -52,9 +55,10 @@ class StreamView {
     std::FILE* events_ = nullptr;
     int wake_ = -1;
     bool terminal_ = false;
-    bool keys_ = false;
     bool drawn_ = false;
     bool asked_ = false;
+    bool reads_keys_ = true;
+    std::size_t choices_ = 0;  ///< of the open question, beyond yes and no
     std::mutex mutex_;
     std::deque<cam::stream::Notice> notices_;
     bool ended_ = false;

@@ -197,4 +197,95 @@ TEST(Stream, AResetMachineIsBroughtBackIntoTheStateOfTheJob) {
     EXPECT_EQ(printer.executed[printer.executed.size() - 2], lines.back());
 }
 
+/// A virtual mill that needs time for its motion.
+struct Mill {
+    std::vector<std::string> executed;
+    cam::sim::GrblBoard* board = nullptr;
+    std::unique_ptr<cam::sim::VirtualMachine> machine;
+
+    explicit Mill(const std::string& link, bool locked = false) {
+        cam::sim::BoardOptions options;
+        options.speed = 10;
+        options.homing = locked;
+        auto own = std::make_unique<cam::sim::GrblBoard>(options);
+        own->on_executed = [this](std::string_view text) { executed.emplace_back(text); };
+        board = own.get();
+        machine = std::make_unique<cam::sim::VirtualMachine>(
+            std::move(own), cam::sim::VirtualMachine::Options{0, {}, link, true});
+        EXPECT_TRUE(machine->start());
+    }
+
+    bool moving() {
+        bool out = false;
+        machine->visit(
+            [&](cam::sim::Board&, cam::sim::Wire&, cam::sim::Time) { out = board->moving(); });
+        return out;
+    }
+
+    std::size_t has() {
+        std::size_t out = 0;
+        machine->visit(
+            [&](cam::sim::Board&, cam::sim::Wire&, cam::sim::Time) { out = executed.size(); });
+        return out;
+    }
+};
+
+TEST(Stream, AMillThatKeptItsPowerGoesOnWithTheLineOnWhichItStands) {
+    const tests::TempDir folder;
+    std::vector<std::string> lines = {"G21G90G17", "M3S8000", "G0X0Y0Z0", "G1Z-1F600"};
+    for (int i = 1; i < 120; ++i) {
+        lines.push_back("G1X" + std::to_string(i) + "Y" + std::to_string(i % 2 * 10) + "F2000");
+    }
+    lines.emplace_back("G0Z0");
+    const std::string program = write_program(folder, lines);
+    Mill mill(folder / "port");
+    const std::vector<std::string> words = {"stream", program,         "--machine", "genmitsu-3018",
+                                            "--link", "virtual-grbl",  "--foreign", "--yes",
+                                            "--port", folder / "port", "--allow",   "unknown_code"};
+    const auto killed = hew(words, tests::Kill{SIGKILL, std::chrono::milliseconds(1500)});
+    ASSERT_EQ(killed.signal, SIGKILL) << killed.err;
+    const auto early = hew(tests::with(words, {"--resume", "--json"}));
+    if (early.exit_code != 0) {  // it still works off what it has: where it ends up is not known
+        EXPECT_EQ(tests::object_of(early)["error"]["code"], "stream.machine_busy");
+    }
+    while (mill.moving()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    const std::size_t before = mill.has();
+    ASSERT_GT(before, 20U);
+    ASSERT_LT(before, lines.size());
+    const std::string last = mill.executed[before - 1];
+    const auto run = hew(tests::with(words, {"--resume"}));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("on the way of line"), std::string::npos) << run.err;
+    mill.machine->stop();
+    // The line that it was on comes again, then all others: no more and no fewer.
+    const auto again =
+        std::find(mill.executed.begin() + static_cast<long>(before), mill.executed.end(), last);
+    const auto in_program = std::find(lines.begin(), lines.end(), last);
+    ASSERT_NE(again, mill.executed.end()) << last;
+    const std::vector<std::string> rest(in_program, lines.end());
+    ASSERT_GE(mill.executed.end() - again, static_cast<long>(rest.size()));
+    EXPECT_TRUE(std::equal(rest.begin(), rest.end(), again));
+    EXPECT_NE(std::find(mill.executed.begin() + static_cast<long>(before), again, "M3S8000"),
+              again);
+}
+
+TEST(Stream, ALockedMillIsHomedAfterAYes) {
+    const tests::TempDir folder;
+    const std::string program = write_program(folder, {"G21G90", "G0X1Y1Z-1", "G1X5F600"});
+    Mill mill(folder / "port", true);
+    const std::vector<std::string> words = {
+        "stream",       program,     "--machine", "genmitsu-3018", "--link",
+        "virtual-grbl", "--foreign", "--port",    folder / "port", "--json"};
+    // Nobody is there to say yes.
+    EXPECT_EQ(tests::object_of(hew(words))["phase"], "stopped");
+    EXPECT_TRUE(mill.executed.empty());
+    const auto run = hew(tests::with(words, {"--yes"}));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    // With --json what happens is told on stderr, an object a line.
+    EXPECT_NE(run.err.find("{\"event\":\"asked\""), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("{\"event\":\"finished\""), std::string::npos) << run.err;
+}
+
 }  // namespace

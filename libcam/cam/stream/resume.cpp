@@ -133,7 +133,7 @@ std::vector<std::string> mill_preamble(const ModalState& state, const WireOption
     return lines;
 }
 
-/// Calls body(words, number, motion) after every line.
+/// Calls body(number, motion) after every line.
 template <class Body>
 void each_state(std::string_view program, Flavour flavour, long first_line, ModalState& state,
                 const Body& body) {
@@ -142,12 +142,47 @@ void each_state(std::string_view program, Flavour flavour, long first_line, Moda
         const std::size_t end = std::min(program.find('\n'), program.size());
         const std::string text = bare_line(program.substr(0, end));
         ++number;
+        Motion motion;
         if (!text.empty() && text.find(' ') == std::string::npos) {
-            apply(state, read_words(text), flavour);
+            motion = apply(state, read_words(text), flavour);
         }
-        body(number);
+        body(number, motion);
         program.remove_prefix(std::min(end + 1, program.size()));
     }
+}
+
+constexpr double kSamePlaceMm = 0.01;
+
+/// Coordinates that one of them does not know are not compared, but X, Y and Z must be known.
+bool is_at(const AxisValues& point, const AxisValues& place) {
+    for (std::size_t axis = 0; axis < kMaxAxes; ++axis) {
+        const double off = std::abs(point.at(axis) - place.at(axis));
+        if (std::isnan(off) ? axis < 3 : off > kSamePlaceMm) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Whether the straight way of a motion passes a place; all axes run in proportion.
+bool leads_through(const Motion& motion, const AxisValues& place) {
+    double along = 0;
+    double square = 0;
+    for (std::size_t axis = 0; axis < kMaxAxes; ++axis) {
+        const double way = motion.to.at(axis) - motion.from.at(axis);
+        const double gone = place.at(axis) - motion.from.at(axis);
+        if (!std::isnan(way) && !std::isnan(gone)) {
+            along += way * gone;
+            square += way * way;
+        }
+    }
+    const double fraction = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+    AxisValues nearest{};
+    for (std::size_t axis = 0; axis < kMaxAxes; ++axis) {
+        const double from = motion.from.at(axis);
+        nearest.at(axis) = from + fraction * (motion.to.at(axis) - from);
+    }
+    return is_at(nearest, place);
 }
 
 bool place_known(const ModalState& state) {
@@ -163,8 +198,23 @@ std::vector<std::string> preamble_of(const ModalState& state, const WireOptions&
 
 ModalState replay(std::string_view program, Flavour flavour, long first_line) {
     ModalState state;
-    each_state(program, flavour, first_line, state, [](long) {});
+    each_state(program, flavour, first_line, state, [](long, const Motion&) {});
     return state;
+}
+
+std::optional<long> line_through(std::string_view program, Flavour flavour, long first, long last,
+                                 const AxisValues& place) {
+    std::optional<long> found;
+    ModalState state;
+    each_state(program, flavour, last + 1, state, [&](long number, const Motion& motion) {
+        const bool straight = state.motion < 2;
+        if (!found && number >= first && motion.happens && !motion.machine_coordinates &&
+            (straight ? leads_through(motion, place)
+                      : is_at(motion.from, place) || is_at(motion.to, place))) {
+            found = number;
+        }
+    });
+    return found;
 }
 
 decomp::Result<ResumePlan> plan_resume(std::string_view program, const WireOptions& options,
@@ -172,7 +222,7 @@ decomp::Result<ResumePlan> plan_resume(std::string_view program, const WireOptio
     // The last lines that could be begun with: where the position is known.
     std::vector<long> good;
     ModalState state;
-    each_state(program, options.flavour, answered_line + 2, state, [&](long number) {
+    each_state(program, options.flavour, answered_line + 2, state, [&](long number, const Motion&) {
         if (place_known(state) && !state.ended) {
             good.push_back(number + 1);
         }

@@ -6,6 +6,7 @@
 #include "cam/stream/prepare.h"
 #include "decomp/base/result.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,11 @@ struct ResumePlan {
 [[nodiscard]] decomp::Result<ResumePlan> plan_resume(std::string_view program,
                                                      const WireOptions& options, long answered_line,
                                                      std::size_t planned_lines);
+
+/// The first of the lines `first` to `last` whose path leads through `place` (work coordinates, at
+/// a hundredth of a millimetre); arcs by their ends alone. Nothing: none does. O(length).
+[[nodiscard]] std::optional<long> line_through(std::string_view program, Flavour flavour,
+                                               long first, long last, const AxisValues& place);
 
 /// The lines that bring a machine, homed and idle, into a state: units, heaters, tool, spindle,
 /// coolant, then above the place, over it and down to it; modes last.

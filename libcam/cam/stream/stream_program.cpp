@@ -3,9 +3,11 @@
 
 #include "cam/protocol/grbl.h"
 #include "cam/protocol/marlin.h"
+#include "cam/stream/ask_place.h"
 #include "cam/verify/proof_json.h"
 #include "decomp/base/file.h"
 #include "decomp/base/hash.h"
+#include "decomp/base/number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -185,14 +187,33 @@ Status ProgramStream::resume_lines(const Standing& standing) {
             "(if it was: home it, then --resume --after-reset)\n";
         return {};
     }
-    long answered = standing.head.first_line - 1;
-    for (std::size_t entry = 0; entry < std::min(standing.acked, old->lines.size()); ++entry) {
-        answered = std::max(answered, old->lines.source(entry));
+    return resume_after_reset(standing, *old);
+}
+
+/// A new beginning: at the line where the machine stands, or as far back as it can be.
+Status ProgramStream::resume_after_reset(const Standing& standing, const WireJob& old) {
+    const auto line_of = [&](std::size_t entries) {
+        long line = standing.head.first_line - 1;
+        for (std::size_t entry = 0; entry < std::min(entries, old.lines.size()); ++entry) {
+            line = std::max(line, old.lines.source(entry));
+        }
+        return line;
+    };
+    long answered = line_of(standing.acked);
+    std::size_t planned = is_mill() ? kPlannedByGrbl : kPlannedByMarlin;
+    if (request_.from_line) {
+        answered = *request_.from_line - 1;
+        planned = 0;
+    } else if (const auto stands =
+                   line_where_it_stands(answered - static_cast<long>(planned),
+                                        line_of(std::max(standing.allowed, standing.sent)));
+               !stands) {
+        return fail(stands.error());
+    } else if (*stands) {
+        answered = **stands - 1;
+        planned = 0;
     }
-    const std::size_t planned = is_mill() ? kPlannedByGrbl : kPlannedByMarlin;
-    const auto plan = plan_resume(program_, wire_options(),
-                                  request_.from_line ? *request_.from_line - 1 : answered,
-                                  request_.from_line ? 0 : planned);
+    const auto plan = plan_resume(program_, wire_options(), answered, planned);
     if (!plan) {
         return fail(plan.error());
     }
@@ -206,6 +227,29 @@ Status ProgramStream::resume_lines(const Standing& standing) {
     head_.preamble = plan->preamble;
     job_ = std::move(*job);
     return {};
+}
+
+/// A mill that kept its power stands on one of the lines that it was sent.
+Result<std::optional<long>> ProgramStream::line_where_it_stands(long first, long last) {
+    if (!is_mill() || request_.after_reset || !request_.looks || request_.link.line.reset_on_open) {
+        return std::optional<long>{};
+    }
+    const auto place = ask_place(opener(), link_options());
+    if (!place) {
+        return fail(place.error());
+    }
+    if (!*place) {
+        summary_ += "the machine does not tell where it stands\n";
+        return std::optional<long>{};
+    }
+    const auto line = line_through(program_, request_.limits.flavour, first, last, **place);
+    summary_ += "the machine stands at";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        summary_ += std::string(" ") + "XYZ"[axis] + decomp::fixed((*place)->at(axis), 3);
+    }
+    summary_ += line ? ", on the way of line " + std::to_string(*line) + "\n"
+                     : ", on none of the lines that it can have got\n";
+    return line;
 }
 
 Status ProgramStream::sum_up() {
@@ -226,6 +270,8 @@ protocol::LinkOptions ProgramStream::link_options() const {
     options.window = line.window;
     options.max_resend_fraction = line.max_resend_fraction;
     options.precheck = line.precheck;
+    options.offers_homing = std::find(request_.allowed.begin(), request_.allowed.end(),
+                                      "not_homed") == request_.allowed.end();
     return options;
 }
 
@@ -242,55 +288,37 @@ Status ProgramStream::admit(const protocol::Identity& identity) const {
     return judge(objections, request_.allowed);
 }
 
-Result<Outcome> ProgramStream::run(const std::function<void(const Notice&)>& tell) {
-    std::error_code ignored;
-    Session* waker = nullptr;
-    journal::Writer::Options options;
-    options.on_synced = [&waker] {
-        if (waker != nullptr) {
-            waker->wake();
-        }
-    };
+Session::Open ProgramStream::opener() const {
+    const profile::Link::Line& link = request_.link.line;
+    const transport::LineSettings line{link.baud, link.rts_cts, link.reset_on_close,
+                                       link.pulse_dtr};
+    return [port = request_.port, line] { return transport::open_channel(port, line); };
+}
 
-    // Declared before the journal, so that its thread has ended before this is gone.
-    struct Ending {
-        ProgramStream& stream;
-
-        ~Ending() { stream.journal_.reset(); }
-    } ending{*this};
-
-    const transport::LineSettings line{request_.link.line.baud, request_.link.line.rts_cts,
-                                       request_.link.line.reset_on_close,
-                                       request_.link.line.pulse_dtr};
-    const std::string port = request_.port;
+void ProgramStream::make_session(const std::function<void(const Notice&)>& tell) {
     if (is_mill()) {
         conversation_ = std::make_unique<protocol::Grbl>(job_.lines, link_options());
     } else {
         conversation_ = std::make_unique<protocol::Marlin>(job_.lines, link_options());
     }
-    if (!request_.log.empty()) {
-        auto log = RawLog::open(request_.log);
-        if (!log) {
-            return fail(log.error());
-        }
-        log_ = std::move(*log);
+    Session::Options options;
+    options.meeting = same_board_ ? protocol::Meeting::Again : protocol::Meeting::Fresh;
+    options.log = log_.get();
+    options.admit = [this](const protocol::Identity& identity) { return admit(identity); };
+    options.tell = tell;
+    auto session = std::make_unique<Session>(*conversation_, opener(), options);
+    const std::scoped_lock lock(mutex_);
+    session_ = std::move(session);
+    for (const protocol::Wish wish : early_) {
+        session_->post(wish);
     }
-    Session::Options session_options;
-    session_options.meeting = same_board_ ? protocol::Meeting::Again : protocol::Meeting::Fresh;
-    session_options.log = log_.get();
-    session_options.admit = [this](const protocol::Identity& identity) { return admit(identity); };
-    session_options.tell = tell;
-    auto session = std::make_unique<Session>(
-        *conversation_, [port, line] { return transport::open_channel(port, line); },
-        session_options);
-    {
-        const std::scoped_lock lock(mutex_);
-        session_ = std::move(session);
-        for (const protocol::Wish wish : early_) {
-            session_->post(wish);
-        }
-    }
-    waker = session_.get();
+}
+
+/// The session must be there: it is woken when the disk has what it waits for.
+Status ProgramStream::open_journal() {
+    journal::Writer::Options options;
+    options.on_synced = [session = session_.get()] { session->wake(); };
+    std::error_code ignored;
     Result<std::unique_ptr<journal::Writer>> writer = [&] {
         if (!request_.resume) {
             std::filesystem::remove(request_.journal, ignored);
@@ -306,6 +334,28 @@ Result<Outcome> ProgramStream::run(const std::function<void(const Notice&)>& tel
     journal_ = std::move(*writer);
     journal_->add(same_board_ ? "continue" : begin_record(head_), journal::Writer::Urgency::Urgent);
     session_->keep(*journal_);
+    return {};
+}
+
+Result<Outcome> ProgramStream::run(const std::function<void(const Notice&)>& tell) {
+    // The journal's thread wakes the session: it must have ended before that is gone.
+    struct Ending {
+        ProgramStream& stream;
+
+        ~Ending() { stream.journal_.reset(); }
+    } ending{*this};
+
+    if (!request_.log.empty()) {
+        auto log = RawLog::open(request_.log);
+        if (!log) {
+            return fail(log.error());
+        }
+        log_ = std::move(*log);
+    }
+    make_session(tell);
+    if (const Status opened = open_journal(); !opened) {
+        return fail(opened.error());
+    }
     return session_->run();
 }
 

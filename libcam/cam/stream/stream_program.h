@@ -31,6 +31,7 @@ struct Request {
     bool resume = false;             ///< go on where the journal says
     bool after_reset = false;        ///< … and the machine was reset: it is homed and idle again
     std::optional<long> from_line;   ///< … from this line of the program on
+    bool looks = true;               ///< … the machine may be asked where it stands
     bool force = false;              ///< an older journal is thrown away
     std::filesystem::path journal;   ///< empty: PROGRAM.journal
     std::filesystem::path log;       ///< raw log; empty: none
@@ -40,7 +41,8 @@ struct Request {
 /// A job that may begin: gate passed, lines made, journal open.
 class ProgramStream {
   public:
-    /// Reads program, proof and journal, and judges them; the port is not touched.
+    /// Reads program, proof and journal, and judges them. The port is touched only to ask a mill
+    /// where it stands, when a job of it is to go on.
     /// @error file.*, proof.* (no valid sidecar), stream.*, and stream.journal_exists (a job was
     /// begun and neither resumed nor forced), stream.journal_differs (of another program)
     [[nodiscard]] static decomp::Result<std::unique_ptr<ProgramStream>> open(Request request);
@@ -72,6 +74,11 @@ class ProgramStream {
     decomp::Status check_gate();
     decomp::Status make_lines();
     decomp::Status resume_lines(const Standing& standing);
+    decomp::Status resume_after_reset(const Standing& standing, const WireJob& old);
+    decomp::Result<std::optional<long>> line_where_it_stands(long first, long last);
+    decomp::Status open_journal();
+    void make_session(const std::function<void(const Notice&)>& tell);
+    [[nodiscard]] Session::Open opener() const;
     decomp::Status sum_up();
     [[nodiscard]] decomp::Status admit(const protocol::Identity& identity) const;
     [[nodiscard]] protocol::LinkOptions link_options() const;

@@ -168,4 +168,23 @@ TEST(Standing, IsTheLastAttemptsLastWord) {
     EXPECT_EQ(read_standing({}).error().code, "stream.no_journal");
 }
 
+TEST(Resume, FindsTheLineOnWhoseWayTheMachineStands) {
+    const std::string program =
+        "G21G90\nG0X0Y0Z5\nG1Z0F100\nX10\nY10\nG2X20Y10I5J0\nG1X0\nY0\nX10\n";
+    const auto at = [&](double x, double y, double z, long first, long last) {
+        AxisValues place = ModalState::unknown();
+        place[0] = x;
+        place[1] = y;
+        place[2] = z;
+        return line_through(program, Flavour::Mill, first, last, place);
+    };
+    EXPECT_EQ(at(10, 4.2, 0, 1, 9), 5);
+    EXPECT_EQ(at(20, 10, 0, 1, 9), 6);
+    EXPECT_EQ(at(10, 0, 0, 1, 9), 4);  // two lines end there: the first, for cutting air harms none
+    EXPECT_EQ(at(10, 0, 0, 6, 9), 9);
+    EXPECT_EQ(at(10, 0, 0, 6, 8), std::nullopt);
+    EXPECT_EQ(at(3, 3, 0, 1, 9), std::nullopt);
+    EXPECT_EQ(at(10, 4.2, 1, 1, 9), std::nullopt);
+}
+
 }  // namespace
