@@ -5,14 +5,24 @@
 #include <cstdint>
 #include <string_view>
 
+namespace {
+
+cam::protocol::JobLines twenty_lines() {
+    cam::protocol::JobLines job;
+    for (int i = 0; i < 20; ++i) {
+        job.add("G1X1", i + 1,
+                i % 7 == 6 ? cam::protocol::LineKind::Ask : cam::protocol::LineKind::Send);
+    }
+    return job;
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace cam::protocol;
     std::string_view bytes(reinterpret_cast<const char*>(data), size);
     (void)read_grbl_reply(bytes);
-    JobLines job;
-    for (int i = 0; i < 20; ++i) {
-        job.add("G1X1", i + 1, i % 7 == 6 ? LineKind::Ask : LineKind::Send);
-    }
+    static const JobLines job = twenty_lines();
     LinkOptions options;
     options.expects_banner = false;
     options.precheck = size % 2 == 0;
