@@ -30,7 +30,7 @@ void MarlinBoard::reset(Time now) {
     last_number_ = 0;
     absolute_ = absolute_e_ = true;
     feed_percent_ = 100;
-    report_seconds_ = 0;
+    report_seconds_ = place_seconds_ = 0;
     nozzle_.target = bed_.target = 0;
     out_ += "start\necho:Marlin 2.0.9\necho: Free Memory: 4242\n";
 }
@@ -166,6 +166,10 @@ void MarlinBoard::advance(Time now) {
         next_report_ = now + std::chrono::seconds(report_seconds_);
         out_ += " " + temperatures() + "\n";
     }
+    if (place_seconds_ > 0 && now >= next_place_) {
+        next_place_ = now + std::chrono::seconds(place_seconds_);
+        out_ += place_text(now) + "\n";
+    }
     if (working_ && now >= next_busy_) {
         next_busy_ = now + 2s;
         out_ += wait_ == Wait::User ? "echo:busy: paused for user\n" : "echo:busy: processing\n";
@@ -239,6 +243,9 @@ std::optional<Time> MarlinBoard::next() const {
     const auto consider = [&](Time when) { soonest = std::min(soonest.value_or(when), when); };
     if (report_seconds_ > 0) {
         consider(next_report_);
+    }
+    if (place_seconds_ > 0) {
+        consider(next_place_);
     }
     if (working_) {
         consider(next_busy_);

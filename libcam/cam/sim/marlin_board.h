@@ -103,6 +103,8 @@ class MarlinBoard final : public Board {
     Time warmed_{};
     int report_seconds_ = 0;
     Time next_report_{};
+    int place_seconds_ = 0;
+    Time next_place_{};
     Time next_busy_{};
 };
 

@@ -38,8 +38,8 @@ void MarlinBoard::start(const std::string& text, Time now) {
         text.size() > 1 ? static_cast<int>(std::strtol(text.c_str() + 1, &end, 10)) : -1;
     const bool read = end != nullptr && end != text.c_str() + 1;
     const bool housekeeping =
-        letter == 'M' && (code == 105 || code == 110 || code == 115 || code == 155 || code == 114 ||
-                          (code == 220 && beside) || code == 876);
+        letter == 'M' && (code == 105 || code == 110 || code == 115 || code == 154 || code == 155 ||
+                          code == 114 || (code == 220 && beside) || code == 876);
     const bool known = (letter == 'G' && code >= 0 && code <= 100) ||
                        (letter == 'M' && code >= 0 && code < 1000) ||
                        (letter == 'T' && code >= 0 && code < 16);
@@ -167,10 +167,18 @@ void MarlinBoard::miscellaneous(int code, const std::string& text, Time now) {
                 "FIRMWARE_NAME:Marlin 2.0.9 (virtual) SOURCE_CODE_URL:example.invalid "
                 "PROTOCOL_VERSION:1.0 MACHINE_TYPE:Virtual Marlin EXTRUDER_COUNT:1 "
                 "UUID:00000000-0000-0000-0000-000000000000\n";
-            out_ += std::string("Cap:AUTOREPORT_TEMP:") + (options_.autoreport ? "1\n" : "0\n");
+            out_ += std::string("Cap:AUTOREPORT_TEMP:") + (options_.autoreport ? "1\n" : "0\n") +
+                    "Cap:AUTOREPORT_POS:1\n";
             out_ += std::string("Cap:EMERGENCY_PARSER:") + (options_.emergency_parser ? "1" : "0") +
                     "\nCap:HOST_ACTION_COMMANDS:0\n";
             break;
+        case 154: {
+            double seconds = 0;
+            (void)parameter(text, 'S', seconds);
+            place_seconds_ = static_cast<int>(std::clamp(seconds, 0.0, 60.0));
+            next_place_ = now + std::chrono::seconds(place_seconds_);
+            break;
+        }
         case 155: {
             double seconds = 0;
             (void)parameter(text, 'S', seconds);
