@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kWholeTurnBelow = 5e-7;  ///< rad, as Grbl's ARC_ANGULAR_TRAVEL_EPSILON
+constexpr double kLeastToleranceMm = 1e-4;
 constexpr double kMostChords = 100000;
 
 }  // namespace
@@ -26,7 +27,7 @@ std::vector<Point> arc_points(const Arc& arc, double tolerance_mm) {
     } else if (!arc.clockwise && sweep <= kWholeTurnBelow) {
         sweep += 2 * kPi;
     }
-    const double sagitta = std::clamp(tolerance_mm, 1e-4, radius > 0 ? radius : 1.0);
+    const double sagitta = std::clamp(tolerance_mm, kLeastToleranceMm, radius > 0 ? radius : 1.0);
     const double chords = std::clamp(
         std::floor(std::abs(0.5 * sweep * radius) / std::sqrt(sagitta * (2 * radius - sagitta))),
         1.0, kMostChords);
