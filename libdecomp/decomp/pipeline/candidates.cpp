@@ -117,6 +117,7 @@ std::vector<Candidate> candidates(const part::Part& part, const part::Verdict& v
                            [&](const mesh::Flat& flat) { return is_parallel(flat.normal, unit); });
     };
     int index = 0;
+    out.reserve(known.size() + mapped.size() + verdict.cuts_that_help.size());
     for (const part::Plane& plane : known) {
         out.push_back({plane, index++, true, true, 0});
     }

@@ -163,21 +163,12 @@ class Decomposer {
             if (choice == nullptr) {
                 continue;
             }
-            const part::Plane aim = settled(part, *choice, judge_, whole_, run_);
-            for (int turn = 0; turn < kSplitTries; ++turn) {
-                const part::Plane plane = turn == 0 ? used_or_nudged(aim, part.mesh, step_mm)
-                                                    : nudged(aim, part.mesh, step_mm, turn);
-                Result<std::vector<std::int32_t>> regions = complex.split(next.region, plane);
-                if (regions && regions->size() > 1) {
-                    for (const std::int32_t region : *regions) {
-                        pending.push_back({region, plan_of(complex, region, plane, *choice),
-                                           next.depth + 1, next.hints});
-                    }
-                    return {};
-                }
-                if (!regions) {
-                    refusal = regions.error();
-                }
+            const Result<bool> divided = divide(complex, next, part, *choice, step_mm, pending);
+            if (divided && *divided) {
+                return {};
+            }
+            if (!divided) {
+                refusal = divided.error();
             }
         }
         if (refusal) {
@@ -187,6 +178,35 @@ class Decomposer {
                     "a part is too large for the machine and no plane divides it",
                     "region " + std::to_string(next.region),
                     "scale the model down, or choose a machine with a larger chamber");
+    }
+
+    /// Splits the region by the plane of the choice, nudged until one divides it; its pieces are
+    /// pending then. False: none divides it. @error the last one of a split
+    Result<bool> divide(cut::Complex& complex, const Pending& next, const part::Part& part,
+                        PlannedCut& choice, double step_mm, std::deque<Pending>& pending) {
+        std::optional<Error> refusal;
+        const part::Plane aim = settled(part, choice, judge_, whole_, run_);
+        for (int turn = 0; turn < kSplitTries; ++turn) {
+            const part::Plane plane = turn == 0 ? used_or_nudged(aim, part.mesh, step_mm)
+                                                : nudged(aim, part.mesh, step_mm, turn);
+            Result<std::vector<std::int32_t>> regions = complex.split(next.region, plane);
+            if (!regions) {
+                refusal = regions.error();
+                continue;
+            }
+            if (regions->size() < 2) {
+                continue;
+            }
+            for (const std::int32_t region : *regions) {
+                pending.push_back(
+                    {region, plan_of(complex, region, plane, choice), next.depth + 1, next.hints});
+            }
+            return true;
+        }
+        if (refusal) {
+            return fail(*refusal);
+        }
+        return false;
     }
 
     /// A plane that two regions share is nudged once, so that it stays one plane.

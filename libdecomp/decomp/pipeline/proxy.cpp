@@ -71,6 +71,20 @@ part::Part read_back(const Surface& surface, const part::Part& part, const FaceO
     return out;
 }
 
+/// Marks the edges of the cut faces: they stay where they are.
+void fix_cut_faces(const Surface& surface, const part::Part& part, const FaceOrigins& origins,
+                   EdgeFlags& fixed) {
+    for (const Surface::Face_index face : surface.faces()) {
+        if (!part.sources[origins[face]].is_cut()) {
+            continue;
+        }
+        for (const Surface::Halfedge_index h :
+             surface.halfedges_around_face(surface.halfedge(face))) {
+            fixed[surface.edge(h)] = true;
+        }
+    }
+}
+
 }  // namespace
 
 part::Part simplified(const part::Part& part, std::size_t triangles) {
@@ -86,14 +100,7 @@ part::Part simplified(const part::Part& part, std::size_t triangles) {
         }
         EdgeFlags fixed =
             surface.add_property_map<Surface::Edge_index, bool>("e:fixed", false).first;
-        for (const Surface::Face_index face : surface.faces()) {
-            if (part.sources[origins[face]].is_cut()) {
-                for (const Surface::Halfedge_index h :
-                     surface.halfedges_around_face(surface.halfedge(face))) {
-                    fixed[surface.edge(h)] = true;
-                }
-            }
-        }
+        fix_cut_faces(surface, part, origins, fixed);
         using Placement = collapse::LindstromTurk_placement<Surface>;
         collapse::edge_collapse(
             surface, collapse::Count_stop_predicate<Surface>(triangles * 3 / 2),
