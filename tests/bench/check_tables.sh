@@ -41,7 +41,7 @@ import sys
 part = json.load(open(sys.argv[2]))["parts"][0]
 share = lambda s: s["by_area_percent"]
 cover = lambda i: " ".join(f"{a:g} ({c:.1f})" for a, c in zip(i["a_deg"], i["covered_percent"])) + (
-    "" if i["proved_smallest"] else " not proved smallest")
+    "" if i["proved_smallest"] else f" not proved smallest: at least {i['at_least']}")
 axis = " ".join(f"{x:.3f}" for x in part["axis"])
 print(f"{sys.argv[1].split('.')[0]}: axis {axis}, ends {share(part['ends']):.2f}")
 print(f"  {'ray':<8} unreached {share(part['unseen']):6.2f}   {cover(part['indices'])}")
