@@ -97,6 +97,31 @@ MedialLine middle_of(const Paths& blob) {
     return {{middle - half, width}, {middle + half, width}};
 }
 
+/// A line whose ends lie inside the region: led on into the beads beside it, whose round ends leave
+/// a gap there.
+void lead_on(MedialLine& line, const Paths& region) {
+    constexpr double kBackMm = 0.2;  // the direction at an end is that from so far back
+    for (const bool front : {true, false}) {
+        if (front) {
+            std::reverse(line.begin(), line.end());
+        }
+        const MedialPoint end = line.back();
+        const auto back = std::find_if(line.rbegin(), line.rend(), [&](const MedialPoint& p) {
+            return (p.at_mm - end.at_mm).norm() >= kBackMm;
+        });
+        if (back != line.rend()) {
+            const Eigen::Vector2d along = (end.at_mm - back->at_mm).normalized();
+            const Eigen::Vector2d tip = end.at_mm + end.width_mm * along;
+            if (polygon::contains(region, polygon::from_mm(tip))) {
+                line.push_back({end.at_mm + end.width_mm / 2 * along, end.width_mm});
+            }
+        }
+        if (front) {
+            std::reverse(line.begin(), line.end());
+        }
+    }
+}
+
 class LayerBeads {
   public:
     LayerBeads(const PartLayer& layer, std::size_t index, const PartLayer* below,
@@ -238,7 +263,10 @@ class LayerBeads {
             if (lines.empty() && polygon::area_mm2(strip) >= kLeastDotMm2) {
                 lines.push_back(middle_of(strip));
             }
-            for (const MedialLine& line : lines) {
+            for (MedialLine& line : lines) {
+                if (feature == Feature::OuterWall) {
+                    lead_on(line, layer_.slice);
+                }
                 for (MedialPiece& piece : pieces_of_one_width(line, kWidthStepMm)) {
                     IslandBeads& owner = island_of(piece.points.front());
                     Bead& single = owner.gaps.emplace_back(bead(feature, std::move(piece.points)));
