@@ -164,4 +164,41 @@ TEST(SeamProof, SeamsAreCountedOnTheFaceThatTouchesAnotherPart) {
     }
 }
 
+/// A solid box on a block of support, with free layers between them.
+std::string print_over_support(int free_layers) {
+    BoxWriter out;
+    for (const char* words :
+         {"G21", "G90", "M140 S60", "M104 S215", "M190 S60", "M109 S215", "G28", "M82", "G92 E0"}) {
+        out.put(words);
+    }
+    constexpr int kSupportLayers = 10;
+    for (int layer = 0; layer < 2 * kSupportLayers + free_layers; ++layer) {
+        const bool support = layer < kSupportLayers;
+        if (!support && layer < kSupportLayers + free_layers) {
+            continue;
+        }
+        out.put_numbers("G1 Z%.3f F600", 0.2 * (layer + 1));
+        for (int k = 0; k < 25; ++k) {
+            out.put(support ? ";TYPE:support"
+                            : (k == 0 ? ";TYPE:outer-wall" : ";TYPE:solid-infill"));
+            out.square(Vector2d::Zero(), 10 - (k + 0.5) * 0.4, 0.4, 0.2, 30);
+        }
+    }
+    for (const char* words : {"M104 S0", "M140 S0", "M84"}) {
+        out.put(words);
+    }
+    return out.text;
+}
+
+TEST(SupportProof, APartThatNoLongerTouchesItsSupportIsTold) {
+    for (const int free_layers : {1, 2, 4}) {
+        const double bottom = 2 + 0.2 * free_layers;
+        const Proof proof = prove(
+            print_over_support(free_layers),
+            {{"P01", tests::box({-10, -10, bottom}, {10, 10, bottom + 2}), {}}}, plain_setup());
+        EXPECT_EQ(has(proof, "proof.floating_island"), free_layers > 2) << free_layers;
+        EXPECT_NEAR(proof.figures.support_contact_mm2, free_layers > 2 ? 0 : 400, 8) << free_layers;
+    }
+}
+
 }  // namespace
