@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cam/millproof/prove.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cam::millproof {
+
+/// Raised whenever a checker of the same inputs may judge otherwise.
+inline constexpr int kMillCheckerVersion = 1;
+
+/// The text of the sidecar `PROGRAM.proof.json` of a milling program (schema "hew.millproof/1",
+/// docs/formats.md): hashes of program, part and profile, options, figures, faults. Same proof,
+/// same bytes.
+[[nodiscard]] std::string proof_json(const MillProof& proof, std::string_view program,
+                                     const MillJob& job, const ProofOptions& options,
+                                     std::string_view profile_sha256);
+
+/// The stock that remains, coloured by what stands on the part or is missing of it.
+struct DeviationMesh {
+    decomp::mesh::TriMesh mesh;
+    std::vector<std::array<std::uint8_t, 3>> colours;  ///< one a triangle
+};
+
+/// Two triangles for each square of cells; grey where no part lies below, green within a tenth of
+/// `range_mm`, to red where stock is left, to blue where the part is cut. `step` cells make a
+/// square.
+[[nodiscard]] DeviationMesh deviation_mesh(const StockMap& stock, const MillJob& job,
+                                           double range_mm, int step = 1);
+
+/// The mesh as binary PLY with a colour for each face.
+[[nodiscard]] std::string deviation_ply(const DeviationMesh& mesh);
+
+}  // namespace cam::millproof
