@@ -40,7 +40,7 @@ class Grbl final : public Protocol {
     [[nodiscard]] const Status& status() const override { return status_; }
 
   private:
-    enum class Step { Banner, Look, Version, Settings, Offsets, Homing, Done };
+    enum class Step { Banner, Look, Version, Settings, Offsets, Place, Homing, Done };
     /// On the way into and out of check mode.
     enum class Check { None, Entering, Reading, Leaving, AwaitingBanner };
 

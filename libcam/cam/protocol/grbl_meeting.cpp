@@ -116,6 +116,7 @@ void Grbl::say_step(Instant now) {
         case Step::Done:
             break;
         case Step::Look:
+        case Step::Place:
             out_.urgent += '?';
             break;
         case Step::Version:
@@ -146,13 +147,16 @@ void Grbl::meeting_reply(const GrblReply& reply, Instant now) {
         identity_.axes = std::string("XYZABC").substr(
             0, static_cast<std::size_t>(std::clamp(reply.axes, 0, static_cast<int>(kMaxAxes))));
         enter(Step::Version, now);
+    } else if (reply.kind == Kind::Status && step_ == Step::Place) {
+        enter(Step::Done, now);
     } else if (reply.kind == Kind::Ok || reply.kind == Kind::Error) {
         if (step_ == Step::Version) {
             enter(Step::Settings, now);
         } else if (step_ == Step::Settings) {
             enter(Step::Offsets, now);
         } else if (step_ == Step::Offsets) {
-            enter(Step::Done, now);
+            // Once more: the first report can be one that an earlier program asked for.
+            enter(Step::Place, now);
         } else if (step_ == Step::Homing && reply.kind == Kind::Ok) {
             enter(Step::Look, now);
         } else if (step_ == Step::Homing) {

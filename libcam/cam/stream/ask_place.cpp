@@ -30,8 +30,9 @@ decomp::Result<std::optional<protocol::AxisValues>> ask_place(Session::Open open
     }
     if (busy) {
         return decomp::fail("stream.machine_busy",
-                            "the machine moves or is held, and where it comes to rest tells where "
-                            "the job goes on",
+                            "the machine moves or is held (" + conversation.status().state +
+                                "), and where it comes to rest tells where "
+                                "the job goes on",
                             {}, "wait until it stands, or reset and home it: --after-reset");
     }
     const protocol::Status& status = conversation.status();

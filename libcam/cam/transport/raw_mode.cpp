@@ -29,6 +29,8 @@ bool set_raw(int descriptor, const LineSettings& settings) {
     modes.c_ospeed = static_cast<speed_t>(settings.baud);
     modes.c_cc[VMIN] = 0;
     modes.c_cc[VTIME] = 0;
+    // What was said to an earlier program is no answer to this one.
+    ::ioctl(descriptor, TCFLSH, TCIFLUSH);
     return ::ioctl(descriptor, TCSETS2, &modes) == 0;
 }
 

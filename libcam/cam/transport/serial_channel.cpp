@@ -96,6 +96,8 @@ std::optional<ChannelResult> open_serial(const std::string& device, const LineSe
     if (!configure(port, settings)) {
         return not_opened(device, ::sp_last_error_code());
     }
+    // What was said to an earlier program is no answer to this one.
+    ::sp_flush(port, SP_BUF_INPUT);
     set_hang_up(descriptor, settings.reset_on_close);
     if (settings.pulse_dtr) {
         pulse_dtr(descriptor);

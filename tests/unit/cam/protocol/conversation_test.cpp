@@ -302,6 +302,7 @@ struct GrblAtWork : testing::Test {
         hear(conversation, "[VER:1.1h.20190830:]\n[OPT:V,15,20]\nok\n", now);
         hear(conversation, "$13=0\n$22=0\nok\n", now);
         hear(conversation, "[G54:0,0,0]\nok\n", now);
+        hear(conversation, "<Idle|MPos:0,0,0|WCO:0,0,0>\n", now);
         ASSERT_EQ(conversation.phase(), Phase::Ready);
         conversation.allow(3, now);
     }
@@ -401,7 +402,8 @@ TEST_F(GrblAtWork, ALockedMachineIsHomedWhenTheOperatorWantsIt) {
     hear(conversation, "<Alarm|MPos:0,0,0|WCO:0,0,0>\n", now);
     hear(conversation, "[VER:1.1h.20190830:]\n[OPT:V,15,20]\nok\n", now);
     hear(conversation, "$13=0\n$22=1\nok\n", now);
-    conversation.receive("[G54:0,0,0]\nok\n", now);
+    hear(conversation, "[G54:0,0,0]\nok\n", now);
+    conversation.receive("<Alarm|MPos:0,0,0|WCO:0,0,0>\n", now);
     const Output asked = conversation.take_output();
     ASSERT_EQ(asked.events.size(), 1U);
     EXPECT_EQ(asked.events[0].kind, Event::Kind::Asked);
@@ -419,6 +421,7 @@ TEST_F(GrblAtWork, ALockedMachineIsHomedWhenTheOperatorWantsIt) {
     hear(conversation, "[OPT:V,15,20]\nok\n", now);
     hear(conversation, "$22=1\nok\n", now);
     hear(conversation, "[G54:0,0,0]\nok\n", now);
+    hear(conversation, "<Idle|MPos:0,0,0>\n", now);
     EXPECT_EQ(conversation.phase(), Phase::Ready);
     EXPECT_TRUE(conversation.identity().homed);
 }
@@ -431,6 +434,7 @@ TEST_F(GrblAtWork, AHomingThatFailsEndsTheJobBeforeItBegins) {
         hear(conversation, "ok\n", now);
         hear(conversation, "$22=1\nok\n", now);
         hear(conversation, "ok\n", now);
+        hear(conversation, "<Alarm|MPos:0,0,0>\n", now);
         conversation.wish(Wish::Resume, now);
         (void)conversation.take_output();
         conversation.receive(answer, now);

@@ -65,6 +65,19 @@ TEST(Channel, ABoardIsNotResetByClosingItsPortUnlessItIsAskedFor) {
     EXPECT_TRUE(hangs_up(pty));
 }
 
+TEST(Channel, WhatWasSaidBeforeItWasOpenedIsNotRead) {
+    const Pty pty;
+    ASSERT_EQ(::write(pty.master, "stale\n", 6), 6);
+    const auto channel = open_channel(pty.name, {});
+    ASSERT_TRUE(channel);
+    ASSERT_EQ(::write(pty.master, "ok\n", 3), 3);
+    ASSERT_TRUE(readable(**channel));
+    std::array<char, 64> bytes{};
+    const auto got = (*channel)->read(bytes.data(), bytes.size());
+    ASSERT_TRUE(got);
+    EXPECT_EQ(std::string_view(bytes.data(), *got), "ok\n");
+}
+
 TEST(Channel, BytesPassUnchangedBothWays) {
     const Pty pty;
     auto channel = open_channel(pty.name, {.baud = 250000});
