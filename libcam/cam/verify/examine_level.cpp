@@ -3,6 +3,7 @@
 
 #include "cam/verify/holes.h"
 #include "cam/verify/islands.h"
+#include "cam/verify/lies.h"
 #include "cam/verify/limits.h"
 #include "cam/verify/overhangs.h"
 
@@ -14,18 +15,8 @@
 namespace cam::verify {
 namespace {
 
-constexpr double kReachMm = 1.2;   ///< how far down a bead looks for what carries it
-constexpr double kSampleMm = 0.3;  ///< between two looks along a bead
-constexpr int kMostSamples = 64;
 constexpr double kMarginMm = 1.0;
 constexpr int kBridgeRounds = 3;
-
-/// How a bead lies: height of material under it up to the nozzle.
-struct Lie {
-    double height = 0;  ///< 0: nothing beneath that it could touch
-    double area = 0;
-    double length = 0;
-};
 
 class LevelExam {
   public:
@@ -39,10 +30,6 @@ class LevelExam {
         return (*scene_.beads)[scene_.levels->order[k]];
     }
 
-    [[nodiscard]] double gap_at(double x, double y) const;
-    [[nodiscard]] double usual_step_mm() const;
-    void measure_lies();
-    [[nodiscard]] double usual_height(bool parts, double otherwise) const;
     void make_window();
     void draw_beads();
     void slice_parts();
@@ -65,103 +52,18 @@ class LevelExam {
     const std::vector<Bitmap>& below_;
     std::size_t index_;
     LevelReport report_;
-    std::vector<Lie> lies_;
+    Lies lies_;
     std::vector<Section> sections_;
-    double own_height_ =
-        0;  ///< of the thickest kind of beads: supports may keep heights of their own
     Window window_;
     Bitmap part_;  ///< undeclared material
     Bitmap all_;
     Bitmap inside_;  ///< union of the sections
 };
 
-/// Distance down to what lies beneath, from the rough deposits; kReachMm when there is nothing.
-double LevelExam::gap_at(double x, double y) const {
-    const int i = static_cast<int>(std::floor(x / scene_.pixel_mm));
-    const int j = static_cast<int>(std::floor(y / scene_.pixel_mm));
-    for (std::size_t k = index_; k-- > 0;) {
-        const double gap = level_.z - scene_.levels->levels[k].z;
-        if (gap > kReachMm) {
-            break;
-        }
-        if (below_[k].get(i, j)) {
-            return gap;
-        }
-    }
-    return std::min(level_.z, kReachMm);
-}
-
-/// The step that most layers of parts have: the height of one that hangs over supports alone.
-double LevelExam::usual_step_mm() const {
-    std::vector<double> steps;
-    for (const Level& level : scene_.levels->levels) {
-        if (level.layer > 0) {
-            steps.push_back(level.step_part);
-        }
-    }
-    if (steps.empty()) {
-        return kReachMm;
-    }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return std::min(*middle, kReachMm);
-}
-
-void LevelExam::measure_lies() {
-    lies_.resize(level_.last - level_.first);
-    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
-        const Bead& b = bead(k);
-        Lie& lie = lies_[k - level_.first];
-        lie.length = bead_length(b);
-        lie.area = b.volume_mm3 / lie.length;
-        const double strand = strand_diameter(lie.area);
-        const int samples = std::clamp(static_cast<int>(lie.length / kSampleMm), 1, kMostSamples);
-        double touched = 0;
-        int touches = 0;
-        for (int s = 0; s < samples; ++s) {
-            const double t = (s + 0.5) / samples;
-            const double gap = gap_at(b.x0 + t * (b.x1 - b.x0), b.y0 + t * (b.y1 - b.y0));
-            if (gap <= strand * 1.05) {
-                touched += gap;
-                ++touches;
-            }
-        }
-        lie.height = touches > 0 ? touched / touches : 0;
-        report_.part_mm3 += b.role == Role::Part ? b.volume_mm3 : 0;
-    }
-    report_.height_mm = usual_height(true, std::min(level_.step_part, usual_step_mm()));
-    own_height_ = std::max(
-        level_.layer >= 0 ? report_.height_mm : 0,
-        usual_height(false, level_.layer >= 0 ? 0 : std::min(level_.step_other, kReachMm)));
-}
-
-/// The median by length over the beads of the parts, or over the others: a few beads over a seam or
-/// a support must not decide.
-double LevelExam::usual_height(bool parts, double otherwise) const {
-    double weight = 0;
-    std::vector<std::pair<double, double>> heights;
-    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
-        const Lie& lie = lies_[k - level_.first];
-        if ((bead(k).role == Role::Part) == parts && lie.height > 0) {
-            heights.emplace_back(lie.height, lie.length);
-            weight += lie.length;
-        }
-    }
-    std::sort(heights.begin(), heights.end());
-    double sum = 0;
-    for (const auto& [height, length] : heights) {
-        sum += length;
-        if (sum >= weight / 2) {
-            return height;
-        }
-    }
-    return otherwise;
-}
-
 template <class Body>
 void LevelExam::rows_of(std::uint32_t k, const Body& body) const {
     const Bead& b = bead(k);
-    const Lie& lie = lies_[k - level_.first];
+    const Lie& lie = lies_.beads[k - level_.first];
     const double height = lie.height > 0 ? lie.height : strand_diameter(lie.area);
     for_capsule_rows({b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2},
                      GridRows(window_, scene_.pixel_mm), body);
@@ -343,7 +245,8 @@ void LevelExam::check_fill() {
 }
 
 void LevelExam::check_support() {
-    const double contact = own_height_ * (1 + limits::kContactLayers) + limits::kContactSlackMm;
+    const double contact =
+        lies_.own_height_mm * (1 + limits::kContactLayers) + limits::kContactSlackMm;
     const double touching = report_.height_mm + limits::kContactSlackMm;
     Bitmap carried(window_);
     Bitmap touched(window_);
@@ -452,7 +355,11 @@ void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
 
 LevelReport LevelExam::run() {
     report_.first = level_.layer == 0;
-    measure_lies();
+    lies_ = find_lies(*scene_.beads, *scene_.levels, index_, below_, scene_.pixel_mm);
+    report_.height_mm = lies_.part_height_mm;
+    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+        report_.part_mm3 += bead(k).role == Role::Part ? bead(k).volume_mm3 : 0;
+    }
     for (const Slicer& slicer : *scene_.slicers) {
         sections_.push_back(slicer.at(level_.z - report_.height_mm / 2));
     }
