@@ -155,4 +155,14 @@ TEST(ProofOfPlan, ThinWallsOfEveryWidth) {
     EXPECT_LE(proof.figures.uncovered_skin_percent, 0.05);
 }
 
+TEST(ProofOfPlan, AWebBetweenTwoBlocksReachesThem) {
+    for (const double web : {0.35, 0.45, 0.6, 0.75}) {
+        auto part = tests::joined(box({-10, -5, 0}, {-3, 5, 4}), box({3, -5, 0}, {10, 5, 4}));
+        part = tests::joined(part, box({-3, -web / 2, 0}, {3, web / 2, 4}));
+        const auto proof = proof_of(part, {"process.elephant_foot_mm=0"});
+        expect_good(proof);
+        EXPECT_EQ(proof.figures.uncovered_skin_percent, 0) << web;
+    }
+}
+
 }  // namespace
