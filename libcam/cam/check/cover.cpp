@@ -71,12 +71,18 @@ std::vector<int> greedy(const std::vector<CoverGroup>& groups, double wanted, do
     return chosen;
 }
 
+struct Aim {
+    double wanted = 0;      ///< weight to be covered
+    double same = 0;        ///< smaller gains are none
+    std::size_t nodes = 0;  ///< of the search
+};
+
 /// Depth first over sets of a fixed size; gains only fall as a set grows, so the sum of the largest
 /// gains of today bounds what the places left can add, and so do the prices of cover_bound.h.
 class Search {
   public:
-    Search(const std::vector<CoverGroup>& groups, double wanted, double same, std::size_t budget)
-        : groups_(groups), wanted_(wanted), same_(same), budget_(budget) {}
+    Search(const std::vector<CoverGroup>& groups, const Aim& aim)
+        : groups_(groups), wanted_(aim.wanted), same_(aim.same), budget_(aim.nodes) {}
 
     /// @return a set of `size` bits that covers enough, or none
     [[nodiscard]] std::vector<int> run(int size) {
@@ -184,7 +190,7 @@ Cover smallest_cover(const std::vector<std::uint64_t>& masks, const std::vector<
     const double same = kSameGain * cover.coverable;
     const double wanted = options.enough * cover.coverable - same;
     std::vector<int> best = greedy(groups, wanted, same);
-    Search search(groups, wanted, same, options.most_nodes);
+    Search search(groups, {.wanted = wanted, .same = same, .nodes = options.most_nodes});
     // Sizes from below: the first that can be met is the smallest.
     const auto most = static_cast<int>(best.size());
     for (cover.at_least = std::min(1, most); cover.at_least <= most; ++cover.at_least) {
