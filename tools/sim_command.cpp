@@ -2,6 +2,7 @@
 #include "cam/sim/grbl_board.h"
 #include "cam/sim/log_replay.h"
 #include "cam/sim/marlin_board.h"
+#include "cam/sim/modbus_server.h"
 #include "cam/sim/virtual_machine.h"
 #include "decomp/base/file.h"
 #include "tools/verb.h"
@@ -34,6 +35,38 @@ struct Command {
     bool no_emergency_parser = false;
     bool no_autoreport = false;
     std::vector<double> work_offset_mm;
+    std::string tcp;  ///< HOST:PORT of modbus; empty: a pseudo-terminal
+    int unit = 1;
+    double scan_ms = 10;
+    cam::sim::PlcOptions plc;
+    bool no_function_23 = false;
+};
+
+/// Writes down what a machine carries out.
+struct ExecutedList {
+    long count = 0;
+    std::FILE* file = nullptr;
+
+    explicit ExecutedList(const fs::path& path)
+        : file(path.empty() ? nullptr : std::fopen(path.c_str(), "we")) {}
+
+    ExecutedList(const ExecutedList&) = delete;
+    ExecutedList& operator=(const ExecutedList&) = delete;
+    ExecutedList(ExecutedList&&) = delete;
+    ExecutedList& operator=(ExecutedList&&) = delete;
+
+    ~ExecutedList() {
+        if (file != nullptr) {
+            std::fclose(file);
+        }
+    }
+
+    void take(std::string_view text) {
+        ++count;
+        if (file != nullptr) {
+            std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
+        }
+    }
 };
 
 Result<std::unique_ptr<cam::sim::Board>> board_of(const Command& command) {
@@ -74,7 +107,81 @@ void wait(const decomp::Run& run, double seconds) {
     }
 }
 
+Result<cam::sim::ModbusServer::Options> server_options(const Command& command) {
+    cam::sim::ModbusServer::Options options;
+    options.link = command.link;
+    options.unit = command.unit;
+    options.baud = command.baud;
+    if (!command.tcp.empty()) {
+        const std::size_t colon = command.tcp.find(':');
+        const std::string port =
+            colon == std::string::npos ? command.tcp : command.tcp.substr(colon + 1);
+        if (port.empty() || port.size() > 5 ||
+            port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65535) {
+            return fail("usage.sim", "--tcp takes HOST:PORT or PORT", command.tcp,
+                        "--tcp 127.0.0.1:5020");
+        }
+        if (colon != std::string::npos) {
+            options.host = command.tcp.substr(0, colon);
+        }
+        options.port = std::stoi(port);
+    }
+    if (!command.faults.empty()) {
+        const auto script = decomp::read_file(command.faults);
+        if (!script) {
+            return fail(script.error());
+        }
+        const auto faults = cam::sim::read_modbus_faults(*script);
+        if (!faults) {
+            return fail("usage.sim", faults.error(), command.faults.string());
+        }
+        options.faults = *faults;
+    }
+    return options;
+}
+
+Result<Answer> simulate_modbus(const Command& command, const decomp::Run& run) {
+    const auto options = server_options(command);
+    if (!options) {
+        return fail(options.error());
+    }
+    cam::sim::PlcOptions plc = command.plc;
+    plc.board = command.board;
+    plc.scan = cam::sim::Time(static_cast<cam::sim::Time::rep>(command.scan_ms * 1e6));
+    plc.combined = !command.no_function_23;
+    ExecutedList list(command.executed);
+    cam::sim::ModbusServer server(plc, *options);
+    server.visit([&](cam::sim::Plc& one, cam::sim::Time) {
+        one.on_executed = [&list](std::string_view text) { list.take(text); };
+    });
+    if (const auto started = server.start(); !started) {
+        return fail("transport.refused", started.error(),
+                    command.tcp.empty() ? "pseudo-terminal" : command.tcp);
+    }
+    run.info("virtual PLC at " + server.port() + ", unit " + std::to_string(command.unit) +
+             "; Ctrl-C ends it");
+    if (!command.tcp.empty() && !options->host.starts_with("127.")) {
+        run.info("others in the network can reach it");
+    }
+    wait(run, command.seconds);
+    server.stop();
+    Answer answer;
+    server.visit([&](cam::sim::Plc& one, cam::sim::Time now) {
+        answer.json = {{"port", server.port()},
+                       {"executed", list.count},
+                       {"accepted", one.accepted()},
+                       {"requests", server.requests()},
+                       {"position", one.position(now)}};
+    });
+    answer.text = std::to_string(list.count) + " lines carried out in " +
+                  std::to_string(server.requests()) + " requests\n";
+    return answer;
+}
+
 Result<Answer> simulate(const Command& command, const decomp::Run& run) {
+    if (command.kind == "modbus") {
+        return simulate_modbus(command, run);
+    }
     cam::sim::VirtualMachine::Options options;
     options.baud = command.baud;
     options.link = command.link;
@@ -93,15 +200,8 @@ Result<Answer> simulate(const Command& command, const decomp::Run& run) {
     if (!board) {
         return fail(board.error());
     }
-    long executed = 0;
-    std::FILE* list =
-        command.executed.empty() ? nullptr : std::fopen(command.executed.c_str(), "we");
-    (*board)->on_executed = [&executed, list](std::string_view text) {
-        ++executed;
-        if (list != nullptr) {
-            std::fprintf(list, "%.*s\n", static_cast<int>(text.size()), text.data());
-        }
-    };
+    ExecutedList list(command.executed);
+    (*board)->on_executed = [&list](std::string_view text) { list.take(text); };
     cam::sim::VirtualMachine machine(std::move(*board), options);
     if (const auto started = machine.start(); !started) {
         return fail("transport.refused", started.error(), "pseudo-terminal");
@@ -114,12 +214,9 @@ Result<Answer> simulate(const Command& command, const decomp::Run& run) {
         overflowed = one.overflowed();
     });
     machine.stop();
-    if (list != nullptr) {
-        std::fclose(list);
-    }
     Answer answer;
-    answer.json = {{"port", port}, {"executed", executed}, {"overflowed_bytes", overflowed}};
-    answer.text = std::to_string(executed) + " commands carried out, " +
+    answer.json = {{"port", port}, {"executed", list.count}, {"overflowed_bytes", overflowed}};
+    answer.text = std::to_string(list.count) + " commands carried out, " +
                   std::to_string(overflowed) + " bytes lost in a full buffer\n";
     return answer;
 }
@@ -129,12 +226,23 @@ Result<Answer> simulate(const Command& command, const decomp::Run& run) {
 Action declare_sim(CLI::App& app, const Common& /*common*/) {
     auto command = std::make_shared<Command>();
     app.add_option("kind", command->kind,
-                   "marlin, grbl, or replay: the machine's side of a raw log")
+                   "marlin, grbl, modbus: a PLC, or replay: the machine's side of a raw log")
         ->required()
-        ->check(CLI::IsMember({"marlin", "grbl", "replay"}));
+        ->check(CLI::IsMember({"marlin", "grbl", "modbus", "replay"}));
     app.add_option("--pty", command->link, "a name for its port: a link that this makes");
     app.add_option("--baud", command->baud, "bytes take their time at this rate; 0: none")
         ->check(CLI::Range(0L, 10000000L));
+    app.add_option("--tcp", command->tcp,
+                   "of modbus: serves HOST:PORT (HOST: 127.0.0.1 unless given) instead of a "
+                   "pseudo-terminal");
+    app.add_option("--unit", command->unit, "of modbus: its number")->check(CLI::Range(1, 247));
+    app.add_option("--scan", command->scan_ms, "of modbus: time of a scan, ms; 0: one a request")
+        ->check(CLI::Range(0.0, 10000.0));
+    app.add_option("--queue", command->plc.queue_lines, "of modbus: lines of its queue")
+        ->check(CLI::Range(1, 65535));
+    app.add_flag("--retentive", command->plc.retentive,
+                 "of modbus: its counters survive a restart");
+    app.add_flag("--no-function-23", command->no_function_23, "of modbus: it knows 3, 4 and 16");
     app.add_option("--faults", command->faults, "script of faults; see docs/streaming.md");
     app.add_option("--log", command->log, "raw log to replay");
     app.add_option("--executed", command->executed, "writes every command that it carries out");

@@ -52,6 +52,13 @@ Result<std::string> chosen_port(const std::string& wish, const cam::profile::Lin
     if (wish != "auto") {
         return wish;
     }
+    if (link.line.protocol == "modbus") {
+        if (link.modbus.port.empty()) {
+            return fail("transport.not_found", "the link names no port of the machine", link.name,
+                        "--port tcp:HOST:PORT or a serial device; or modbus.port in the link");
+        }
+        return link.modbus.port;
+    }
     const auto ports = cam::transport::list_ports();
     if (!ports) {
         return fail(ports.error());
@@ -135,7 +142,8 @@ Result<Request> stream_request(const StreamTarget& target) {
     StreamTarget own = target;
     std::vector<std::string> of_link;
     for (const std::string& setting : target.settings) {
-        if (setting.starts_with("link.") || setting.starts_with("identity.")) {
+        if (setting.starts_with("link.") || setting.starts_with("identity.") ||
+            setting.starts_with("modbus.")) {
             of_link.push_back(setting);
             std::erase(own.settings, setting);
         }
@@ -166,7 +174,7 @@ Result<Request> stream_request(const StreamTarget& target) {
         }
     }
     const bool mill = request->limits.flavour == Flavour::Mill;
-    if (link->line.protocol != "card" && mill != (link->line.protocol == "grbl")) {
+    if (link->line.protocol != "card" && mill == (link->line.protocol == "marlin")) {
         return fail("usage.stream", "link '" + link->name + "' speaks " + link->line.protocol +
                                         ", which is not for " + own.machine);
     }

@@ -22,7 +22,9 @@ const Table<Link::Line>& line_rows() {
     using L = Link::Line;
     static const Table<L> rows = {
         {"protocol", &L::protocol, "", 0, 0, kRequired,
-         "marlin, grbl (Grbl 1.1, grblHAL, FluidNC), or card: the program is carried to it"},
+         "marlin, grbl (Grbl 1.1, grblHAL, FluidNC), modbus (a PLC with the G-code mailbox), or "
+         "card: "
+         "the program is carried to it"},
         {"baud", &L::baud, "", 1200, 4000000, kOptional, "bits a second"},
         {"rts_cts", &L::rts_cts, "", 0, 0, kOptional, "hardware flow control"},
         {"reset_on_open", &L::reset_on_open, "", 0, 0, kOptional,
@@ -77,6 +79,43 @@ const Table<Link::Mill>& mill_rows() {
     return rows;
 }
 
+const Table<Link::Modbus>& modbus_rows() {
+    using M = Link::Modbus;
+    static const Table<M> rows = {
+        {"port", &M::port, "", 0, 0, kOptional,
+         "where it is, for --port auto: tcp:HOST:PORT or a serial device"},
+        {"unit", &M::unit, "", 1, 247, kOptional, "its number on the bus"},
+        {"timeout_s", &M::timeout_s, "s", 0.01, 10, kOptional, "until an answer is given up"},
+        {"watchdog_s", &M::watchdog_s, "s", 0.1, 60, kOptional,
+         "without a sign of the sender: the machine holds; at least three timeouts"},
+        {"parity", &M::parity, "", 0, 0, kOptional, "of a serial line: N, E or O"},
+        {"stop_bits", &M::stop_bits, "", 1, 2, kOptional, "of a serial line"},
+        {"combined", &M::combined, "", 0, 0, kOptional,
+         "it has function 23; else 16 and then read_function (found out by itself, too)"},
+        {"read_function", &M::read_function, "", 3, 4, kOptional, "3: holding, 4: input registers"},
+        {"low_word_first", &M::low_word_first, "", 0, 0, kOptional, "of values of 32 bits"},
+        {"low_byte_first", &M::low_byte_first, "", 0, 0, kOptional, "of text"},
+        {"registers", &M::registers, "", 0, 0, kOptional,
+         "those that lie elsewhere than docs/modbus-mailbox.md says, e.g. \"slot_area=4096\""},
+    };
+    return rows;
+}
+
+decomp::Status check_modbus(const Link& link, const std::string& path) {
+    const std::string& parity = link.modbus.parity;
+    if (parity != "N" && parity != "E" && parity != "O") {
+        return fail("profile.inconsistent", "modbus.parity is N, E or O, not '" + parity + "'",
+                    path);
+    }
+    if (link.modbus.watchdog_s < 3 * link.modbus.timeout_s) {
+        return fail("profile.inconsistent",
+                    "modbus.watchdog_s is less than three times modbus.timeout_s: one lost answer "
+                    "would hold the machine",
+                    path);
+    }
+    return {};
+}
+
 }  // namespace
 
 std::vector<Field> fields_of(Link& link) {
@@ -84,6 +123,7 @@ std::vector<Field> fields_of(Link& link) {
     bind(out, File::Link, "link", line_rows(), link.line);
     bind(out, File::Link, "identity", identity_rows(), link.identity);
     bind(out, File::Link, "mill", mill_rows(), link.mill);
+    bind(out, File::Link, "modbus", modbus_rows(), link.modbus);
     return out;
 }
 
@@ -112,10 +152,13 @@ Result<Link> read_link(std::string_view machine, const std::vector<std::string>&
     if (!read) {
         return fail(read.error());
     }
-    constexpr std::array<std::string_view, 3> kProtocols = {"marlin", "grbl", "card"};
+    constexpr std::array<std::string_view, 4> kProtocols = {"marlin", "grbl", "modbus", "card"};
     if (std::find(kProtocols.begin(), kProtocols.end(), link.line.protocol) == kProtocols.end()) {
         return fail("profile.inconsistent", "there is no protocol '" + link.line.protocol + "'",
-                    found->path.string(), "protocols are marlin, grbl and card");
+                    found->path.string(), "protocols are marlin, grbl, modbus and card");
+    }
+    if (const decomp::Status checked = check_modbus(link, found->path.string()); !checked) {
+        return fail(checked.error());
     }
     return link;
 }

@@ -17,7 +17,7 @@ struct Link {
     std::string name;
 
     struct Line {
-        std::string protocol;  ///< "marlin", "grbl" or "card"
+        std::string protocol;  ///< "marlin", "grbl", "modbus" or "card"
         int baud = 115200;
         bool rts_cts = false;
         bool reset_on_open = true;    ///< the board restarts when the port is opened
@@ -47,6 +47,21 @@ struct Link {
         bool parks = true;      ///< rises before a change of tool
         double park_z_mm = -2;  ///< machine coordinates
     } mill;
+
+    /// For machines with the G-code mailbox.
+    struct Modbus {
+        std::string port;  ///< for --port auto: "tcp:HOST:PORT" or a device; empty: none
+        int unit = 1;
+        double timeout_s = 0.3;
+        double watchdog_s = 1.5;
+        std::string parity = "E";
+        int stop_bits = 1;
+        bool combined = true;
+        int read_function = 3;
+        bool low_word_first = false;
+        bool low_byte_first = false;
+        std::vector<std::string> registers;  ///< "NAME=ADDRESS" of those that lie elsewhere
+    } modbus;
 };
 
 /// The link of a machine; `machine` is a name or a path as for read_fdm_setup(); `settings` as

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/stream/stream_program.h"
 
-#include "cam/protocol/grbl.h"
-#include "cam/protocol/marlin.h"
 #include "cam/stream/ask_place.h"
+#include "cam/transport/modbus.h"
 #include "cam/verify/proof_json.h"
 #include "decomp/base/file.h"
 #include "decomp/base/hash.h"
@@ -24,10 +23,6 @@ constexpr std::size_t kPlannedByMarlin = 16;  ///< blocks, with the largest of i
 constexpr std::size_t kPlannedByGrbl = 18;
 constexpr std::size_t kLongestForMarlin = 75;  ///< of 96, less number and checksum
 constexpr std::size_t kLongestForGrbl = 79;
-
-protocol::Instant seconds(double value) {
-    return protocol::Instant(static_cast<protocol::Instant::rep>(value * 1e9));
-}
 
 }  // namespace
 
@@ -177,7 +172,7 @@ Status ProgramStream::resume_lines(const Standing& standing) {
                 std::to_string(std::max(standing.allowed, standing.sent)) + " of " +
                 std::to_string(old->lines.size()) + "\n";
     summary_ += standing.ended ? "it ended: " + standing.ending + "\n" : "it was cut off\n";
-    same_board_ = !is_mill() && !request_.after_reset && !request_.from_line;
+    same_board_ = (is_modbus() || !is_mill()) && !request_.after_reset && !request_.from_line;
     if (same_board_) {
         head_.first_line = standing.head.first_line;
         head_.preamble = standing.head.preamble;
@@ -200,7 +195,8 @@ Status ProgramStream::resume_after_reset(const Standing& standing, const WireJob
         return line;
     };
     long answered = line_of(standing.acked);
-    std::size_t planned = is_mill() ? kPlannedByGrbl : kPlannedByMarlin;
+    // A mailbox tells which lines are done, not which were taken.
+    std::size_t planned = is_modbus() ? 0 : is_mill() ? kPlannedByGrbl : kPlannedByMarlin;
     if (request_.from_line) {
         answered = *request_.from_line - 1;
         planned = 0;
@@ -231,7 +227,8 @@ Status ProgramStream::resume_after_reset(const Standing& standing, const WireJob
 
 /// A mill that kept its power stands on one of the lines that it was sent.
 Result<std::optional<long>> ProgramStream::line_where_it_stands(long first, long last) {
-    if (!is_mill() || request_.after_reset || !request_.looks || request_.link.line.reset_on_open) {
+    if (!is_mill() || is_modbus() || request_.after_reset || !request_.looks ||
+        request_.link.line.reset_on_open) {
         return std::optional<long>{};
     }
     const auto place = ask_place(opener(), link_options());
@@ -256,23 +253,11 @@ Status ProgramStream::sum_up() {
     head_.entries = job_.lines.size();
     summary_ += std::to_string(job_.lines.size()) + " lines to send, about " +
                 std::to_string(static_cast<long>(job_.total_seconds / 60)) + " min of motion\n";
+    if (is_modbus() && transport::is_public_address(request_.port)) {
+        summary_ += "WARNING: " + request_.port +
+                    " lies outside private networks; Modbus asks nobody for a name or password\n";
+    }
     return {};
-}
-
-protocol::LinkOptions ProgramStream::link_options() const {
-    const profile::Link::Line& line = request_.link.line;
-    protocol::LinkOptions options;
-    options.banner_wait = seconds(line.banner_wait_s);
-    options.expects_banner = line.reset_on_open && !same_board_;
-    options.silence = seconds(line.silence_s);
-    options.patience = seconds(line.patience_s);
-    options.receive_bytes = static_cast<std::size_t>(line.receive_bytes);
-    options.window = line.window;
-    options.max_resend_fraction = line.max_resend_fraction;
-    options.precheck = line.precheck;
-    options.offers_homing = std::find(request_.allowed.begin(), request_.allowed.end(),
-                                      "not_homed") == request_.allowed.end();
-    return options;
 }
 
 Status ProgramStream::admit(const protocol::Identity& identity) const {
@@ -288,19 +273,7 @@ Status ProgramStream::admit(const protocol::Identity& identity) const {
     return judge(objections, request_.allowed);
 }
 
-Session::Open ProgramStream::opener() const {
-    const profile::Link::Line& link = request_.link.line;
-    const transport::LineSettings line{link.baud, link.rts_cts, link.reset_on_close,
-                                       link.pulse_dtr};
-    return [port = request_.port, line] { return transport::open_channel(port, line); };
-}
-
 void ProgramStream::make_session(const std::function<void(const Notice&)>& tell) {
-    if (is_mill()) {
-        conversation_ = std::make_unique<protocol::Grbl>(job_.lines, link_options());
-    } else {
-        conversation_ = std::make_unique<protocol::Marlin>(job_.lines, link_options());
-    }
     Session::Options options;
     options.meeting = same_board_ ? protocol::Meeting::Again : protocol::Meeting::Fresh;
     options.log = log_.get();
@@ -351,6 +324,9 @@ Result<Outcome> ProgramStream::run(const std::function<void(const Notice&)>& tel
             return fail(log.error());
         }
         log_ = std::move(*log);
+    }
+    if (const Status made = make_conversation(); !made) {
+        return fail(made.error());
     }
     make_session(tell);
     if (const Status opened = open_journal(); !opened) {

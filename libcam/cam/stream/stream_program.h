@@ -84,6 +84,10 @@ class ProgramStream {
     [[nodiscard]] protocol::LinkOptions link_options() const;
     [[nodiscard]] WireOptions wire_options() const;
 
+    decomp::Status make_conversation();
+
+    [[nodiscard]] bool is_modbus() const { return request_.link.line.protocol == "modbus"; }
+
     [[nodiscard]] bool is_mill() const { return request_.limits.flavour == Flavour::Mill; }
 
     Request request_;
