@@ -185,7 +185,6 @@ void Mailbox::on_status(const Registers& in, Instant now) {
             meet_status(*status, now);
             return;
         }
-        accepted_ = std::max<std::size_t>(accepted_, ours_ ? status->accepted : 0);
         go_back();
     }
     // An answer to an older request shows a tag from before the last one that was believed.
@@ -237,12 +236,16 @@ void Mailbox::meet_status(const PlcStatus& status, Instant /*now*/) {
         fail("protocol.alarm", "the machine is in alarm: " + plc_error_text(status.error));
         return;
     }
-    phase_ = Phase::Ready;
     accepted_ = executed_ = 0;
     if (meeting_ == Meeting::Again) {
+        if (status.accepted > job_.size() || status.executed > status.accepted) {
+            fail("protocol.lost_count", "the machine has more lines than the job");
+            return;
+        }
         accepted_ = status.accepted;
         executed_ = status.executed;
     }
+    phase_ = Phase::Ready;
     emit(Event::Kind::Ready, {}, static_cast<long>(accepted_));
 }
 
