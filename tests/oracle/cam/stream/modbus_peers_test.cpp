@@ -101,8 +101,8 @@ TEST(ModbusPeers, MbpollReadsTheVirtualPlcOverTcpAndRtu) {
     }
     for (const bool rtu : {false, true}) {
         const tests::TempDir folder;
-        cam::sim::ModbusServer machine(
-            {}, {"127.0.0.1", rtu ? -1 : 0, rtu ? folder / "plc" : std::string(), 1, 0, {}});
+        const std::string link = rtu ? (folder / "plc").string() : "";
+        cam::sim::ModbusServer machine({}, {"127.0.0.1", rtu ? -1 : 0, link, 1, 0, {}});
         ASSERT_TRUE(machine.start());
         const std::string port = machine.port();
         std::vector<std::string> words = {"/usr/bin/mbpoll", "-m", rtu ? "rtu" : "tcp"};
