@@ -152,7 +152,9 @@ const Table<FdmMachine::Process>& process_rows() {
         {"hole_growth_mm", &P::hole_growth_mm, "mm", -1, 1, kOptional,
          "added to the radius of upright round holes, which print too narrow"},
         {"mating_gap_mm", &P::mating_gap_mm, "mm", 0, 2, kOptional,
-         "left between two parts at an upright cut; each gives half of it"},
+         "left between two parts at an upright cut; each gives half of it. A horizontal cut gets "
+         "none: "
+         "the part ends with a whole layer, at most half a layer off"},
         {"support_angle_deg", &P::support_angle, "degrees", 0, 90, kOptional,
          "downward surfaces flatter than this, measured from the horizontal, get support; 0: "
          "never"},
