@@ -72,7 +72,7 @@ TEST(ModbusPeers, APlcWrittenFromTheDocumentTakesEveryLineOnce) {
     ASSERT_TRUE(up) << "the PLC does not come up";
     cam::protocol::JobLines job = tests::job_of(kLines, tests::mill_line);
     job.add("G4P0.01", 0, cam::protocol::LineKind::Drain);
-    job.expect({99.9, 83, NAN, NAN, NAN, NAN});
+    job.expect({99.9, 63, NAN, NAN, NAN, NAN});
     cam::protocol::MailboxOptions options;
     options.timeout = 2s;
     options.watchdog = 10s;
