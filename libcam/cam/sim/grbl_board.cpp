@@ -195,7 +195,8 @@ void GrblBoard::answer(const std::string& line, Time now) {
     }
 }
 
-int GrblBoard::command(const std::string& line) {
+/// Answers what only asks; false: it does more than that.
+bool GrblBoard::tell(const std::string& line) {
     if (line == "$I") {
         out_ += "[VER:1.1h.20190830:]\r\n[OPT:V," + std::to_string(options_.planner_blocks - 1) +
                 "," + std::to_string(options_.receive_bytes) + "]\r\n";
@@ -204,13 +205,13 @@ int GrblBoard::command(const std::string& line) {
                     std::string("XYZABC").substr(0, static_cast<std::size_t>(options_.axes)) +
                     "]\r\n";
         }
-        return 0;
+        return true;
     }
     if (line == "$$") {
         out_ += "$10=1\r\n$13=0\r\n$20=0\r\n$22=" + std::string(options_.homing ? "1" : "0") +
                 "\r\n$30=24000\r\n$32=0\r\n$110=3000.000\r\n$130=300.000\r\n$131=300.000\r\n"
                 "$132=100.000\r\n";
-        return 0;
+        return true;
     }
     if (line == "$#") {
         for (int system = 0; system < 6; ++system) {
@@ -219,10 +220,17 @@ int GrblBoard::command(const std::string& line) {
         }
         out_ += "[G28:" + values({}) + "]\r\n[G30:" + values({}) + "]\r\n[G92:" + values({}) +
                 "]\r\n[TLO:0.000]\r\n";
-        return 0;
+        return true;
     }
     if (line == "$G") {
         out_ += parser_.text();
+        return true;
+    }
+    return false;
+}
+
+int GrblBoard::command(const std::string& line) {
+    if (tell(line)) {
         return 0;
     }
     if (line == "$X" || line == "$H") {

@@ -45,6 +45,7 @@ class GrblBoard final : public Board {
     void realtime(unsigned char byte, Time now);
     bool take_line(Time now);
     void answer(const std::string& line, Time now);
+    bool tell(const std::string& line);
     int command(const std::string& line);
     bool run_block(Time now);
     void soft_reset(Time now);

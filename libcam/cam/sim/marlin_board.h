@@ -59,6 +59,7 @@ class MarlinBoard final : public Board {
     void general(int code, const std::string& text, Time now);
     void miscellaneous(int code, const std::string& text, Time now);
     void move(int code, const std::string& text);
+    void identify();
     void finish(Time now);
     void heat(Heater& heater, const std::string& text, bool wait, Time now);
     void warm(Time now);

@@ -163,14 +163,7 @@ void MarlinBoard::miscellaneous(int code, const std::string& text, Time now) {
             halt();
             break;
         case 115:
-            out_ +=
-                "FIRMWARE_NAME:Marlin 2.0.9 (virtual) SOURCE_CODE_URL:example.invalid "
-                "PROTOCOL_VERSION:1.0 MACHINE_TYPE:Virtual Marlin EXTRUDER_COUNT:1 "
-                "UUID:00000000-0000-0000-0000-000000000000\n";
-            out_ += std::string("Cap:AUTOREPORT_TEMP:") + (options_.autoreport ? "1\n" : "0\n") +
-                    "Cap:AUTOREPORT_POS:1\n";
-            out_ += std::string("Cap:EMERGENCY_PARSER:") + (options_.emergency_parser ? "1" : "0") +
-                    "\nCap:HOST_ACTION_COMMANDS:0\n";
+            identify();
             break;
         case 154: {
             double seconds = 0;
@@ -207,6 +200,17 @@ void MarlinBoard::miscellaneous(int code, const std::string& text, Time now) {
         default:
             break;
     }
+}
+
+void MarlinBoard::identify() {
+    out_ +=
+        "FIRMWARE_NAME:Marlin 2.0.9 (virtual) SOURCE_CODE_URL:example.invalid "
+        "PROTOCOL_VERSION:1.0 MACHINE_TYPE:Virtual Marlin EXTRUDER_COUNT:1 "
+        "UUID:00000000-0000-0000-0000-000000000000\n";
+    out_ += std::string("Cap:AUTOREPORT_TEMP:") + (options_.autoreport ? "1\n" : "0\n") +
+            "Cap:AUTOREPORT_POS:1\n";
+    out_ += std::string("Cap:EMERGENCY_PARSER:") + (options_.emergency_parser ? "1" : "0") +
+            "\nCap:HOST_ACTION_COMMANDS:0\n";
 }
 
 void MarlinBoard::heat(Heater& heater, const std::string& text, bool wait, Time /*now*/) {
