@@ -33,6 +33,7 @@ struct DropCutter::Drop {
     double x = 0;
     double y = 0;
     double tip = kFree;
+    double enough = -kFree;  ///< a tip above this one needs no further search
 };
 
 DropCutter::DropCutter(const Surface& surface, const tool::Outline& outline)
@@ -203,7 +204,7 @@ bool DropCutter::may_hold(double top, double away_squared, double tip) const {
 
 void DropCutter::lower_on_cell(int column, int row, Drop& drop) const {
     for (const Surface::Entry& entry : surface_->in_cell(column, row)) {
-        if (entry.top <= drop.tip) {
+        if (entry.top <= drop.tip || drop.tip > drop.enough) {
             return;
         }
         const Surface::Facet& facet = surface_->facet(entry.facet);
@@ -229,6 +230,20 @@ void DropCutter::lower_on_cell(int column, int row, Drop& drop) const {
 }
 
 double DropCutter::lowest_tip(const Eigen::Vector2d& at, double floor) const {
+    Drop drop{at.x(), at.y(), floor + outline_.z};
+    lower(drop);
+    return drop.tip - outline_.z;
+}
+
+bool DropCutter::clears(const Eigen::Vector2d& at, double z) const {
+    const double limit = z + outline_.z;
+    Drop drop{at.x(), at.y(), limit, limit};
+    lower(drop);
+    return drop.tip <= limit;
+}
+
+void DropCutter::lower(Drop& drop) const {
+    const Eigen::Vector2d at(drop.x, drop.y);
     const Surface& surface = *surface_;
     const double radius = outline_.radius;
     const double cell = surface.cell_mm();
@@ -237,7 +252,7 @@ double DropCutter::lowest_tip(const Eigen::Vector2d& at, double floor) const {
     if (surface.facets() == 0 || !(at.x() + radius >= low_x) || !(at.y() + radius >= low_y) ||
         !(at.x() - radius <= surface.bounds().max().x()) ||
         !(at.y() - radius <= surface.bounds().max().y())) {
-        return floor;
+        return;
     }
 
     struct Candidate {
@@ -248,7 +263,6 @@ double DropCutter::lowest_tip(const Eigen::Vector2d& at, double floor) const {
 
     thread_local std::vector<Candidate> candidates;
     candidates.clear();
-    Drop drop{at.x(), at.y(), floor + outline_.z};
     const auto cell_of = [&](double offset, int count) {
         return static_cast<int>(std::clamp(offset / cell, 0.0, static_cast<double>(count - 1)));
     };
@@ -287,12 +301,11 @@ double DropCutter::lowest_tip(const Eigen::Vector2d& at, double floor) const {
         std::sort(candidates.begin(), candidates.end(), higher);
     }
     for (const Candidate& candidate : candidates) {
-        if (candidate.bound <= drop.tip) {
+        if (candidate.bound <= drop.tip || drop.tip > drop.enough) {
             break;
         }
         lower_on_cell(candidate.column, candidate.row, drop);
     }
-    return drop.tip - outline_.z;
 }
 
 }  // namespace cam::cutter

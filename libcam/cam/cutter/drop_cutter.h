@@ -25,6 +25,9 @@ class DropCutter {
     /// dozens.
     [[nodiscard]] double lowest_tip(const Eigen::Vector2d& at, double floor = kFree) const;
 
+    /// Whether the tip may stand at this height. Cheaper than lowest_tip(): one fault suffices.
+    [[nodiscard]] bool clears(const Eigen::Vector2d& at, double z) const;
+
     [[nodiscard]] const tool::Outline& outline() const { return outline_; }
 
   private:
@@ -36,6 +39,7 @@ class DropCutter {
     [[nodiscard]] double tip_on_plane(const Surface::Facet& facet, const Drop& drop) const;
     [[nodiscard]] bool holds_inside(const Surface::Facet& facet, const Drop& drop) const;
     [[nodiscard]] double place_on(const Surface::Edge& edge, double distance, double rim) const;
+    void lower(Drop& drop) const;
     void lower_on_cell(int column, int row, Drop& drop) const;
     void lower_on_edge(const Surface::Edge& edge, Drop& drop) const;
     [[nodiscard]] double best_along(double distance, double slope) const;

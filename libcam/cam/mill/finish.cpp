@@ -1,0 +1,535 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/mill/finish.h"
+
+#include "cam/mill/order.h"
+#include "decomp/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace cam::mill {
+
+namespace {
+
+using check::HeightMap;
+using cutter::DropCutter;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDip = 0.03;        // mm that a chord may stand over a hollow
+constexpr double kShortest = 0.02;   // mm in plan: a steeper step is a wall
+constexpr double kCoarsest = 0.1;    // mm in plan: a hollow is looked at down to here
+constexpr double kAboveCut = 0.5;    // mm over what is there before a tool slows down
+constexpr double kOnFloor = 1e-6;    // mm: nothing is finished there
+constexpr double kLevelShare = 0.8;  // of the stepover: levels on slopes not quite upright
+constexpr double kPlaceMm = 0.002;   // to which a level line is moved onto the surface
+constexpr double kLead = 0.25;       // diameters: a level line begins and ends so far outside
+constexpr double kRestMm = 0.05;     // that a second finishing tool finds worth cutting
+constexpr double kThinMm = 0.002;
+constexpr double kHeldUpMm = 0.02;
+constexpr double kJumpLines = 3;  // stepovers across which a line goes on to the next
+
+/// A tool over a surface: exact drops, never below the floor, never where its body would touch.
+class Tip {
+  public:
+    Tip(const cutter::Surface& surface, const tool::Tool& tool, HeightMap body, double floor)
+        : drop_(surface, tool::outline_of(tool)), body_(std::move(body)), floor_(floor) {}
+
+    [[nodiscard]] double lowest(const Vector2d& at, double floor = cutter::kFree) const {
+        return drop_.lowest_tip(at, std::max({floor, floor_, body(at)}));
+    }
+
+    [[nodiscard]] double body(const Vector2d& at) const {
+        return std::max<double>(highest_near(body_, at), floor_);
+    }
+
+    [[nodiscard]] bool clears(const Vector2d& at, double z) const {
+        return z >= body(at) - kPlaceMm && drop_.clears(at, z);
+    }
+
+    /// Appends the way from a to b (not a itself) over the surface.
+    void follow(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& out) const {
+        refine(a, b, out);
+        out.push_back(b);
+    }
+
+  private:
+    void refine(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& out) const {
+        const Vector2d middle = (a + b).head<2>() / 2;
+        const double length = (b - a).head<2>().norm();
+        const double chord = (a.z() + b.z()) / 2;
+        const double z = lowest(middle, chord - kDip);
+        const bool gouges = z > chord + kFinishToleranceMm;
+        const bool dips = z <= chord - kDip && length > kCoarsest;
+        if (!gouges && !dips) {
+            return;
+        }
+        if (length < kShortest) {
+            // A wall: up or down on its free side.
+            const Vector3d& low = a.z() < b.z() ? a : b;
+            out.emplace_back(low.x(), low.y(), std::max({z, a.z(), b.z()}));
+            return;
+        }
+        const Vector3d split(middle.x(), middle.y(), dips ? lowest(middle) : z);
+        refine(a, split, out);
+        out.push_back(split);
+        refine(split, b, out);
+    }
+
+    DropCutter drop_;
+    HeightMap body_;
+    double floor_;
+};
+
+/// Places and heights of the lattice of finishing.
+struct Grid {
+    Lattice lattice;
+    Vector2d origin;
+    Vector2d along;
+    Vector2d across;
+    double step = 0;
+
+    [[nodiscard]] Vector2d place(const Vector2d& node) const {
+        return origin + step * (node.x() * along + node.y() * across);
+    }
+
+    [[nodiscard]] Vector2d place(int column, int row) const { return place(Vector2d(column, row)); }
+};
+
+class Finishing {
+  public:
+    Finishing(Writer& writer, const StockMaps& maps, const Bench& bench, const Cutter& cutter,
+              const MillTask& task, Tip tip)
+        : writer_(writer),
+          bench_(bench),
+          cutter_(cutter),
+          task_(task),
+          tip_(std::move(tip)),
+          air_(air_tips(maps.stock, cutter.tool)),
+          room_(axis_room(bench, cutter.tool)) {}
+
+    [[nodiscard]] bool sample(double step, decomp::Run& run) {
+        const double angle = task_.lines.radians();
+        grid_.along = {std::cos(angle), std::sin(angle)};
+        grid_.across = {-std::sin(angle), std::cos(angle)};
+        grid_.step = step;
+        Eigen::AlignedBox2d turned;
+        for (const double x : {room_.min().x(), room_.max().x()}) {
+            for (const double y : {room_.min().y(), room_.max().y()}) {
+                const Vector2d p(x, y);
+                turned.extend(Vector2d(p.dot(grid_.along), p.dot(grid_.across)));
+            }
+        }
+        grid_.origin = turned.min().x() * grid_.along + turned.min().y() * grid_.across;
+        grid_.lattice.columns = 1 + static_cast<int>(turned.sizes().x() / step + kOnFloor);
+        grid_.lattice.rows = 1 + static_cast<int>(turned.sizes().y() / step + kOnFloor);
+        Lattice& lattice = grid_.lattice;
+        lattice.values.assign(
+            static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows), 0);
+        z_.assign(lattice.values.size(), 0);
+        decomp::for_each_index(run, static_cast<std::size_t>(lattice.rows), [&](std::size_t r) {
+            const int row = static_cast<int>(r);
+            for (int column = 0; column < lattice.columns; ++column) {
+                const Vector2d at = grid_.place(column, row);
+                z_[lattice.index(column, row)] =
+                    inside(at) ? tip_.lowest(at) : bench_.program.safe_z;
+            }
+        });
+        for (std::size_t i = 0; i < z_.size(); ++i) {
+            lattice.values[i] = static_cast<float>(z_[i]);
+        }
+        return !run.cancelled();
+    }
+
+    /// What is to be done at each node: nothing, a line, a level, or both.
+    void sort_by_slope(bool rest_only) {
+        const Lattice& lattice = grid_.lattice;
+        const double steepest = std::tan(task_.steep.radians());
+        std::vector<char> steep(z_.size(), 0);
+        std::vector<char> needed(z_.size(), 0);
+        for (int row = 0; row < lattice.rows; ++row) {
+            for (int column = 0; column < lattice.columns; ++column) {
+                const std::size_t i = lattice.index(column, row);
+                const Vector2d at = grid_.place(column, row);
+                needed[i] = inside(at) && z_[i] < bench_.program.stock.max().z() + kRestMm &&
+                            (!rest_only || highest_near(air_, at) > z_[i] + kRestMm);
+                if (needed[i] == 0) {
+                    continue;
+                }
+                const double gx = slope(column - 1, row, column + 1, row, needed[i] != 0);
+                const double gy = slope(column, row - 1, column, row + 1, needed[i] != 0);
+                steep[i] = std::hypot(gx, gy) > steepest;
+                figures_.nodes += z_[i] > bench_.floor_z + kOnFloor ? 1 : 0;
+                figures_.held_up +=
+                    z_[i] > bench_.floor_z + kOnFloor && tip_.body(at) >= z_[i] - kOnFloor ? 1 : 0;
+            }
+        }
+        line_.assign(z_.size(), 0);
+        level_.assign(z_.size(), 0);
+        for (int row = 0; row < lattice.rows; ++row) {
+            for (int column = 0; column < lattice.columns; ++column) {
+                const std::size_t i = lattice.index(column, row);
+                const bool on_floor = z_[i] <= bench_.floor_z + kOnFloor;
+                line_[i] = needed[i] != 0 && !on_floor && steep[i] == 0;
+                level_[i] = near(steep, column, row);
+            }
+        }
+    }
+
+    void levels(double from_z, double to_z, double step) {
+        const Lattice& lattice = grid_.lattice;
+        writer_.take(cutter_, cutter_.feeds.finish.spindle_rpm, path::MillOperation::Waterline);
+        const auto wanted = [&](int column, int row) {
+            return level_[lattice.index(column, row)] != 0 ||
+                   level_[lattice.index(column + 1, row)] != 0 ||
+                   level_[lattice.index(column, row + 1)] != 0 ||
+                   level_[lattice.index(column + 1, row + 1)] != 0;
+        };
+        const int count = std::max(1, static_cast<int>(std::ceil((from_z - to_z) / step)));
+        for (int k = 1; k <= count; ++k) {
+            const double z = from_z - (from_z - to_z) * k / count;
+            const auto crossing = [&](const Vector2d& below, const Vector2d& above) {
+                return onto_surface(below, above, z);
+            };
+            std::vector<Chain> chains = trace_level(lattice, z, wanted, crossing);
+            level_lines(chains, z);
+        }
+        writer_.retract();
+    }
+
+    void lines() {
+        writer_.take(cutter_, cutter_.feeds.finish.spindle_rpm, path::MillOperation::Parallel);
+
+        struct Line {
+            int row = 0;
+            int first = 0;
+            int last = 0;
+        };
+
+        std::vector<Line> lines;
+        std::vector<Stretch> stretches;
+        const Lattice& lattice = grid_.lattice;
+        for (int row = 0; row < lattice.rows; ++row) {
+            for (int column = 0; column < lattice.columns; ++column) {
+                if (line_[lattice.index(column, row)] == 0) {
+                    continue;
+                }
+                int last = column;
+                while (last + 1 < lattice.columns && line_[lattice.index(last + 1, row)] != 0) {
+                    ++last;
+                }
+                // One node into the steep at either end.
+                const int first = column > 0 && usable(column - 1, row) ? column - 1 : column;
+                const int end =
+                    last + 1 < lattice.columns && usable(last + 1, row) ? last + 1 : last;
+                lines.push_back({row, first, end});
+                stretches.push_back({grid_.place(first, row), grid_.place(end, row)});
+                column = last;
+            }
+        }
+        const Vector2d start = writer_.at() ? Vector2d(writer_.at()->head<2>()) : room_.min();
+        for (const Turn& turn : short_order(stretches, start)) {
+            const Line& line = lines[turn.index];
+            std::vector<Vector3d> points;
+            for (int column = line.first; column <= line.last; ++column) {
+                const Vector2d at = grid_.place(column, line.row);
+                points.emplace_back(at.x(), at.y(), z_[lattice.index(column, line.row)]);
+            }
+            if (turn.backwards) {
+                std::reverse(points.begin(), points.end());
+            }
+            cut_line(points);
+        }
+        writer_.retract();
+    }
+
+    /// Heights at which the tip has been, on the nodes of a map.
+    [[nodiscard]] HeightMap heights_on(const HeightMap& like) const {
+        HeightMap out = like;
+        for (int row = 0; row < out.rows; ++row) {
+            for (int column = 0; column < out.columns; ++column) {
+                const Vector2d at = out.low_mm + out.cell_mm * Vector2d(column, row);
+                const Vector2d from = at - grid_.origin;
+                const int c = static_cast<int>(std::lround(from.dot(grid_.along) / grid_.step));
+                const int r = static_cast<int>(std::lround(from.dot(grid_.across) / grid_.step));
+                double z = bench_.program.safe_z;
+                if (c >= 0 && r >= 0 && c < grid_.lattice.columns && r < grid_.lattice.rows) {
+                    const std::size_t i = grid_.lattice.index(c, r);
+                    if (line_[i] != 0 || level_[i] != 0) {
+                        z = highest_around(c, r);
+                    }
+                }
+                out.z_mm[out.index(column, row)] = static_cast<float>(z);
+            }
+        }
+        return out;
+    }
+
+    [[nodiscard]] const Finished& figures() const { return figures_; }
+
+    void mark_all_levels() {
+        level_.assign(z_.size(), 1);
+        line_.assign(z_.size(), 0);
+    }
+
+  private:
+    [[nodiscard]] bool inside(const Vector2d& at) const { return room_.contains(at); }
+
+    [[nodiscard]] bool usable(int column, int row) const {
+        const std::size_t i = grid_.lattice.index(column, row);
+        return inside(grid_.place(column, row)) && z_[i] > bench_.floor_z + kOnFloor;
+    }
+
+    [[nodiscard]] double slope(int c0, int r0, int c1, int r1, bool /*needed*/) const {
+        const Lattice& lattice = grid_.lattice;
+        const auto fit = [](int value, int count) { return std::clamp(value, 0, count - 1); };
+        c0 = fit(c0, lattice.columns);
+        c1 = fit(c1, lattice.columns);
+        r0 = fit(r0, lattice.rows);
+        r1 = fit(r1, lattice.rows);
+        const double run = grid_.step * std::hypot(c1 - c0, r1 - r0);
+        if (run == 0 || !inside(grid_.place(c0, r0)) || !inside(grid_.place(c1, r1))) {
+            return 0;
+        }
+        return (z_[lattice.index(c1, r1)] - z_[lattice.index(c0, r0)]) / run;
+    }
+
+    [[nodiscard]] bool near(const std::vector<char>& mask, int column, int row) const {
+        const Lattice& lattice = grid_.lattice;
+        for (int r = std::max(0, row - 1); r <= std::min(lattice.rows - 1, row + 1); ++r) {
+            for (int c = std::max(0, column - 1); c <= std::min(lattice.columns - 1, column + 1);
+                 ++c) {
+                if (mask[lattice.index(c, r)] != 0) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] double highest_around(int column, int row) const {
+        const Lattice& lattice = grid_.lattice;
+        double z = z_[lattice.index(column, row)];
+        for (int r = std::max(0, row - 1); r <= std::min(lattice.rows - 1, row + 1); ++r) {
+            for (int c = std::max(0, column - 1); c <= std::min(lattice.columns - 1, column + 1);
+                 ++c) {
+                z = std::max(z, z_[lattice.index(c, r)]);
+            }
+        }
+        return z;
+    }
+
+    /// Between a node that is clear at z and one that is not: the last clear place, by bisection.
+    [[nodiscard]] Vector2d onto_surface(const Vector2d& below, const Vector2d& above,
+                                        double z) const {
+        Vector2d clear = below;
+        Vector2d blocked = above;
+        while ((blocked - clear).norm() * grid_.step > kPlaceMm) {
+            const Vector2d middle = (clear + blocked) / 2;
+            (tip_.clears(grid_.place(middle), z) ? clear : blocked) = middle;
+        }
+        return clear;
+    }
+
+    /// Moves a chord's middle out until it is clear, and asks again for its halves.
+    void clear_chord(const Vector2d& a, const Vector2d& b, double z, int depth,
+                     std::vector<Vector3d>& out) const {
+        const Vector2d along = b - a;
+        const double length = along.norm();
+        if (depth > 0 && length > kShortest) {
+            const Vector2d out_of(-along.y() / length, along.x() / length);  // clear is to the left
+            const Vector2d middle = (a + b) / 2;
+            if (!tip_.clears(middle + kFinishToleranceMm * out_of, z)) {
+                double blocked = kFinishToleranceMm;
+                double clear = 2 * blocked;
+                while (clear < length && !tip_.clears(middle + clear * out_of, z)) {
+                    blocked = clear;
+                    clear *= 2;
+                }
+                if (clear < length) {
+                    while (clear - blocked > kPlaceMm) {
+                        const double half = (clear + blocked) / 2;
+                        (tip_.clears(middle + half * out_of, z) ? clear : blocked) = half;
+                    }
+                    const Vector2d split = middle + clear * out_of;
+                    clear_chord(a, split, z, depth - 1, out);
+                    out.emplace_back(split.x(), split.y(), z);
+                    clear_chord(split, b, z, depth - 1, out);
+                    return;
+                }
+                // No way round at this height: over it.
+                std::vector<Vector3d> over;
+                tip_.follow(Vector3d(a.x(), a.y(), z), Vector3d(b.x(), b.y(), z), over);
+                for (Vector3d& p : over) {
+                    p.z() = std::max(p.z(), z);
+                    out.push_back(p);
+                }
+            }
+        }
+    }
+
+    void level_lines(std::vector<Chain>& chains, double z) {
+        std::vector<char> done(chains.size(), 0);
+        for (std::size_t count = 0; count < chains.size(); ++count) {
+            const Vector2d at = writer_.at() ? Vector2d(writer_.at()->head<2>()) : room_.min();
+            std::size_t best = 0;
+            std::size_t corner = 0;
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < chains.size(); ++i) {
+                const std::size_t starts = chains[i].closed ? chains[i].points.size() : 1;
+                for (std::size_t j = 0; done[i] == 0 && j < starts; ++j) {
+                    const double away = (grid_.place(chains[i].points[j]) - at).squaredNorm();
+                    if (away < nearest) {
+                        nearest = away;
+                        best = i;
+                        corner = j;
+                    }
+                }
+            }
+            done[best] = 1;
+            Chain& chain = chains[best];
+            std::rotate(chain.points.begin(),
+                        chain.points.begin() + static_cast<std::ptrdiff_t>(corner),
+                        chain.points.end());
+            if (chain.closed) {
+                chain.points.push_back(chain.points.front());
+            }
+            if (chain.points.size() > 1) {
+                cut_level_line(chain, z);
+            }
+        }
+    }
+
+    void cut_level_line(const Chain& chain, double z) {
+        std::vector<Vector3d> points;
+        for (std::size_t i = 0; i < chain.points.size(); ++i) {
+            const Vector2d p = grid_.place(chain.points[i]);
+            if (i > 0) {
+                clear_chord(Vector2d(points.back().head<2>()), p, z, 6, points);
+            }
+            points.emplace_back(p.x(), p.y(), z);
+        }
+        points = thinned(points, kThinMm);
+        const auto lead = [&](const Vector3d& end,
+                              const Vector3d& next) -> std::optional<Vector3d> {
+            const Vector2d along = (next - end).head<2>().normalized();
+            const Vector2d out = Vector2d(-along.y(), along.x()) * kLead * cutter_.tool.diameter_mm;
+            const Vector2d at = Vector2d(end.head<2>()) + out;
+            if (inside(at) && tip_.clears(at, z) &&
+                tip_.clears(Vector2d(end.head<2>()) + out / 2, z)) {
+                return Vector3d(at.x(), at.y(), z);
+            }
+            return std::nullopt;
+        };
+        if (!step_over_to(points.front(), z)) {
+            const auto in = lead(points.front(), points[1]);
+            const Vector3d& start = in ? *in : points.front();
+            writer_.approach(start, clear_above(start), cutter_.feeds.finish.plunge);
+        }
+        writer_.cut_along(points, cutter_.feeds.finish.feed);
+        if (!chain.closed) {
+            const std::size_t n = points.size();
+            const Vector3d beyond = 2 * points[n - 1] - points[n - 2];
+            if (const auto away = lead(points[n - 1], beyond)) {
+                writer_.cut(*away, cutter_.feeds.finish.feed);
+            }
+        }
+    }
+
+    /// From a line just cut to the next one below it, without going up.
+    bool step_over_to(const Vector3d& to, double z) {
+        if (!writer_.is_down() || writer_.at()->z() < z) {
+            return false;
+        }
+        const Vector3d from = *writer_.at();
+        const double away = (to - from).head<2>().norm();
+        if (away > kJumpLines * grid_.step || from.z() - z > 2 * kJumpLines * grid_.step) {
+            return false;
+        }
+        for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+            const Vector2d at = from.head<2>() + share * (to - from).head<2>();
+            if (!tip_.clears(at, from.z())) {
+                return false;
+            }
+        }
+        writer_.cut(Vector3d(to.x(), to.y(), from.z()), cutter_.feeds.finish.feed);
+        writer_.cut(to, cutter_.feeds.finish.plunge);
+        return true;
+    }
+
+    [[nodiscard]] double clear_above(const Vector3d& at) const {
+        return std::max<double>(at.z(), highest_near(air_, at.head<2>())) + kAboveCut;
+    }
+
+    void cut_line(const std::vector<Vector3d>& nodes) {
+        const double reach = kJumpLines * grid_.step;
+        std::vector<Vector3d> points;
+        if (writer_.is_down() && (nodes.front() - *writer_.at()).head<2>().norm() < reach) {
+            points.push_back(*writer_.at());
+            tip_.follow(points.front(), nodes.front(), points);
+        } else {
+            writer_.approach(nodes.front(), clear_above(nodes.front()),
+                             cutter_.feeds.finish.plunge);
+            points.push_back(nodes.front());
+        }
+        for (std::size_t i = 1; i < nodes.size(); ++i) {
+            tip_.follow(nodes[i - 1], nodes[i], points);
+        }
+        writer_.cut_along(thinned(points, kThinMm), cutter_.feeds.finish.feed);
+    }
+
+    Writer& writer_;
+    const Bench& bench_;
+    const Cutter& cutter_;
+    const MillTask& task_;
+    Tip tip_;
+    HeightMap air_;
+    Eigen::AlignedBox2d room_;
+    Grid grid_;
+    std::vector<double> z_;
+    std::vector<char> line_;
+    std::vector<char> level_;
+    Finished figures_;
+};
+
+}  // namespace
+
+decomp::Result<Finished> finish(Writer& writer, StockMaps& maps, const Bench& bench,
+                                const cutter::Surface& surface, const Cutter& cutter,
+                                bool rest_only, const MillTask& task, decomp::Run& run) {
+    const HeightMap body = body_tips(maps.stock, cutter.tool, task);
+    Finishing finishing(writer, maps, bench, cutter, task,
+                        Tip(surface, cutter.tool, body, bench.floor_z));
+    const double step = stepover_mm(cutter.tool, task.scallop_mm);
+    if (!finishing.sample(step, run)) {
+        return decomp::cancelled();
+    }
+    finishing.sort_by_slope(rest_only);
+    finishing.levels(bench.program.stock.max().z(), bench.floor_z, kLevelShare * step);
+    if (run.cancelled()) {
+        return decomp::cancelled();
+    }
+    finishing.lines();
+    remove(maps.stock, finishing.heights_on(maps.stock), cutter.tool);
+    return finishing.figures();
+}
+
+decomp::Status contour(Writer& writer, StockMaps& maps, const Bench& bench,
+                       const cutter::Surface& surface, const Cutter& cutter, double from_z,
+                       double step_mm, const MillTask& task, decomp::Run& run) {
+    const HeightMap body = body_tips(maps.stock, cutter.tool, task);
+    Finishing finishing(writer, maps, bench, cutter, task,
+                        Tip(surface, cutter.tool, body, bench.floor_z));
+    if (!finishing.sample(step_mm, run)) {
+        return decomp::cancelled();
+    }
+    finishing.mark_all_levels();
+    finishing.levels(from_z, bench.floor_z, step_mm);
+    return {};
+}
+
+}  // namespace cam::mill
