@@ -45,6 +45,8 @@ constexpr std::array kRows{
     Row{"orient.", kInfeasible},
     Row{"plate.", kInfeasible},
     Row{"fdm.", kInfeasible},
+    Row{"mill.", kInfeasible},
+    Row{"mill.no_cutter", kUsage},
     Row{"post.", kInfeasible},
     Row{"proof.unreadable", kBadInput},
     Row{"proof.bad_part", kBadInput},

@@ -51,6 +51,7 @@ struct Verb {
 Action declare_make(CLI::App& app, const Common& common);
 Action declare_decompose(CLI::App& app, const Common& common);
 Action declare_export(CLI::App& app, const Common& common);
+Action declare_mill(CLI::App& app, const Common& common);
 Action declare_slice(CLI::App& app, const Common& common);
 Action declare_verify(CLI::App& app, const Common& common);
 Action declare_inspect(CLI::App& app, const Common& common);

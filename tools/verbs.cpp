@@ -35,6 +35,13 @@ const std::vector<Verb>& verbs() {
          "  hew slice out/ --part P03\n"
          "  hew slice part.stl --machine prusa-mk3s -o part.gcode",
          declare_slice},
+        {"mill", "From a shape to programs",
+         "write the milling programs of one part, with a set-up sheet",
+         "  hew mill part.stl --machine linuxcnc-router-3axis --material pine -o p.ngc\n"
+         "  hew mill part.stl --machine shapeoko-4 --stock 120x100x40mm --tools flat-6,ball-3 -o "
+         "p.nc\n"
+         "  hew mill out/ --part P02 --machine linuxcnc-router-3axis --setups 2 -o P02.ngc",
+         declare_mill},
         {"verify", "Looking", "prove a program against the part that it should make",
          "  hew verify part.gcode --part part.stl --machine prusa-mk3s\n"
          "  hew verify out/                                                 all plates of a job\n"

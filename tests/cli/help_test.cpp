@@ -19,7 +19,7 @@ std::set<std::string> options_in(const std::string& text) {
 
 const std::vector<std::string> kVerbs{"make",     "decompose", "slice", "verify", "inspect",
                                       "render",   "machines",  "demo",  "check",  "export",
-                                      "polycube", "stream",    "ports", "sim"};
+                                      "polycube", "stream",    "ports", "sim",    "mill"};
 
 TEST(Help, EveryVerbHasHelpWithExamples) {
     const std::string overview = hew({"--help"}).out;

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cam/feeds/feeds.h"
+#include "cam/mill/plan.h"
+#include "cam/post/post_mill.h"
+#include "cam/profile/read_mill.h"
+#include "decomp/base/file.h"
+#include "decomp/base/number.h"
+#include "decomp/io/write_mesh.h"
+#include "tools/check_input.h"
+#include "tools/exit_code.h"
+#include "tools/job_options.h"
+#include "tools/mill_report.h"
+#include "tools/values.h"
+
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using decomp::Result;
+using decomp::Run;
+
+struct Command {
+    CheckRequest input;
+    std::string material = "pine";
+    std::string tools = "default";
+    std::string stock = "box";
+    std::string setups = "auto";
+    double scallop_mm = 0.01;
+    double lines_deg = 0;
+    fs::path out;
+    bool force = false;
+};
+
+std::vector<std::string> names_in(const std::string& list) {
+    std::vector<std::string> names;
+    if (list == "default") {
+        return names;
+    }
+    std::size_t from = 0;
+    while (from <= list.size()) {
+        const std::size_t comma = std::min(list.find(',', from), list.size());
+        names.push_back(list.substr(from, comma - from));
+        from = comma + 1;
+    }
+    return names;
+}
+
+Result<cam::mill::MillTask> task_of(const Command& command, const cam::profile::MillSetup& setup,
+                                    const cam::profile::MillMaterial& material,
+                                    std::vector<std::string>& notes) {
+    cam::mill::MillTask task;
+    for (const auto& tool : setup.tools) {
+        const cam::feeds::Feeds feeds = cam::feeds::feeds_for(tool, material, setup.machine);
+        for (const std::string& note : feeds.notes) {
+            notes.push_back(tool.name + ": " + note);
+        }
+        task.cutters.push_back({tool, feeds.values});
+    }
+    if (command.stock != "box") {
+        const auto size = parse_size_mm(command.stock);
+        if (!size) {
+            return decomp::fail(size.error());
+        }
+        task.stock_mm = *size;
+    }
+    task.setups = command.setups == "1"   ? cam::mill::Setups::One
+                  : command.setups == "2" ? cam::mill::Setups::Two
+                                          : cam::mill::Setups::Auto;
+    task.scallop_mm = command.scallop_mm;
+    task.lines = decomp::Angle::degrees(command.lines_deg);
+    return task;
+}
+
+/// Whether a program stays within the travel of its machine, wherever the zero is set.
+decomp::Status fits(const cam::path::MillPlan& plan, const cam::profile::MillMachine& machine) {
+    const Eigen::Vector3d travel = machine.travel.max_mm - machine.travel.min_mm;
+    for (const auto& program : plan.programs) {
+        const Eigen::Vector3d needed =
+            program.stock.sizes() + Eigen::Vector3d(0, 0, program.safe_z - program.stock.max().z());
+        if ((needed - travel).maxCoeff() > 0) {
+            return decomp::fail(
+                "mill.too_large",
+                "the block needs " + decomp::decimal(needed.x(), 0) + " x " +
+                    decomp::decimal(needed.y(), 0) + " x " + decomp::decimal(needed.z(), 0) +
+                    " mm of travel, the machine has " + decomp::decimal(travel.x(), 0) + " x " +
+                    decomp::decimal(travel.y(), 0) + " x " + decomp::decimal(travel.z(), 0) + " mm",
+                machine.name, "cut the part smaller: hew decompose");
+        }
+    }
+    return {};
+}
+
+Result<std::vector<MillFile>> written_programs(const Command& command,
+                                               const cam::path::MillPlan& plan,
+                                               const cam::profile::MillSetup& setup) {
+    std::vector<MillFile> files;
+    for (std::size_t i = 0; i < plan.programs.size(); ++i) {
+        auto text = cam::post::post_mill(plan.programs[i], plan.tools, setup,
+                                         command.out.stem().string() + " " + plan.programs[i].name);
+        if (!text) {
+            return decomp::fail(text.error());
+        }
+        std::string name = command.out.filename().string();
+        if (plan.programs.size() > 1) {
+            name = command.out.stem().string() + "-" + std::to_string(i + 1) + "-" +
+                   plan.programs[i].name + command.out.extension().string();
+        }
+        files.push_back({std::move(name), std::move(*text)});
+    }
+    return files;
+}
+
+Result<Answer> mill(const Command& command, const Run& outer) {
+    Run run = outer;
+    const auto setup = cam::profile::read_mill_setup(command.input.machine, names_in(command.tools),
+                                                     command.input.settings);
+    if (!setup) {
+        return decomp::fail(setup.error());
+    }
+    const auto material = cam::profile::read_mill_material(command.material);
+    if (!material) {
+        return decomp::fail(material.error());
+    }
+    const auto input = read_check_input(command.input, run);
+    if (!input) {
+        return decomp::fail(input.error());
+    }
+    if (input->parts.size() != 1) {
+        return decomp::fail("usage.part", "which part of the job?",
+                            command.input.mesh.path.string(), "add --part P01");
+    }
+    MillSheet sheet;
+    const auto task = task_of(command, *setup, *material, sheet.notes);
+    if (!task) {
+        return decomp::fail(task.error());
+    }
+    const auto plan = cam::mill::plan_milling(input->parts.front(), *task, run);
+    if (!plan) {
+        return decomp::fail(plan.error());
+    }
+    if (const auto fit = fits(*plan, setup->machine); !fit) {
+        return decomp::fail(fit.error());
+    }
+    auto programs = written_programs(command, *plan, *setup);
+    if (!programs) {
+        return decomp::fail(programs.error());
+    }
+    const std::string stem = command.out.stem().string();
+    sheet.plan = &*plan;
+    sheet.setup = &*setup;
+    sheet.part_file = stem + ".part.stl";
+    sheet.material = material->title;
+    sheet.programs = *programs;
+    std::vector<MillFile> files = *programs;
+    const auto stl = decomp::io::stl_bytes(input->parts.front().mesh);
+    files.push_back({sheet.part_file, stl});
+    files.push_back({"setup.json", setup_json(sheet).dump(1) + "\n"});
+    files.push_back({stem + ".html", sheet_html(sheet)});
+    const fs::path directory = command.out.parent_path();
+    for (const MillFile& file : files) {
+        if (!command.force && fs::exists(directory / file.name)) {
+            return decomp::fail("file.exists", "the file exists already",
+                                (directory / file.name).string(),
+                                "choose another name, or add --force");
+        }
+    }
+    std::error_code ignored;
+    fs::create_directories(directory, ignored);
+    Answer answer;
+    answer.json["programs"] = Json::array();
+    for (const MillFile& file : files) {
+        const auto done =
+            decomp::write_file(directory / file.name, file.text, decomp::Overwrite::Allow);
+        if (!done) {
+            return decomp::fail(done.error());
+        }
+    }
+    for (std::size_t i = 0; i < programs->size(); ++i) {
+        const double seconds = moving_seconds(plan->programs[i], setup->machine);
+        answer.json["programs"].push_back({{"file", (*programs)[i].name},
+                                           {"moves", plan->programs[i].moves.size()},
+                                           {"moving_seconds", seconds}});
+        answer.text +=
+            (directory / (*programs)[i].name).string() + "  about " + duration_text(seconds) + "\n";
+    }
+    answer.json["warnings"] = plan->warnings;
+    answer.json["proved"] = false;
+    for (const std::string& warning : plan->warnings) {
+        answer.text += "warning: " + warning + "\n";
+    }
+    answer.text += (directory / (stem + ".html")).string() + "  set-up sheet\n" +
+                   "These programs are planned, not proved: look at them in a simulator first.\n";
+    return answer;
+}
+
+}  // namespace
+
+Action declare_mill(CLI::App& app, const Common& /*common*/) {
+    auto command = std::make_shared<Command>();
+    app.add_option("input", command->input.mesh.path, "a mesh, or a job directory with --part")
+        ->required();
+    app.add_option("--part", command->input.part, "part of the job, e.g. P03");
+    app.add_option("-o,--out", command->out,
+                   "program to write; of two set-ups NAME-1-top and NAME-2-bottom")
+        ->required();
+    app.add_option("--machine", command->input.machine,
+                   "mill: a name from 'hew machines', or a .toml file")
+        ->required()
+        ->group("Machine");
+    app.add_option("--material", command->material, "what is milled")
+        ->capture_default_str()
+        ->group("Machine");
+    app.add_option("--set", command->input.settings,
+                   "change a value of the profile: KEY=VALUE, e.g. spindle.max_rpm=18000")
+        ->allow_extra_args(false)
+        ->group("Machine");
+    app.add_option("--tools", command->tools,
+                   "cutters in the order of use, e.g. flat-6,ball-3; default: the machine's own");
+    app.add_option("--stock", command->stock,
+                   "block at hand, e.g. 120x100x40mm; box: what the part needs");
+    app.add_option("--setups", command->setups, "auto, 1, or 2 with a turn of the block")
+        ->check(CLI::IsMember({"auto", "1", "2"}));
+    app.add_option("--scallop", command->scallop_mm,
+                   "ridges between the lines of finishing at most, mm")
+        ->check(CLI::Range(0.001, 1.0));
+    app.add_option("--lines", command->lines_deg, "direction of the lines of finishing, degrees");
+    add_model_options(app, command->input.mesh.unit, command->input.mesh.scale,
+                      command->input.mesh.up, command->input.mesh.height_mm);
+    add_solid_options(app, command->input.mesh.body, command->input.mesh.deflection_mm,
+                      command->input.mesh.angle_deg);
+    app.add_flag("--force", command->force, "overwrite")->group("General");
+    return [command](const Run& run) { return mill(*command, run); };
+}
+
+}  // namespace tools
