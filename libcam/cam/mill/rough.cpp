@@ -27,6 +27,7 @@ constexpr double kNarrow = 0.1;        // of the diameter: half the least width 
 constexpr double kShortRing = 0.6;     // diameters: a shorter ring is swept by its neighbour
 constexpr double kRestMm = 0.15;       // that a second tool finds worth cutting
 constexpr double kThin = 0.02;         // mm by which rings are simplified
+constexpr double kWholeLevel = 1e-9;   // of a level: rounding makes no further one
 constexpr int kMostRings = 4000;       // of one island
 
 /// One tool at one level.
@@ -231,7 +232,7 @@ decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench, const 
     const double top = bench.program.stock.max().z();
     const double step = std::min(cutter.feeds.rough.step_down_mm, deepest_step_mm);
     const int levels =
-        std::max(1, static_cast<int>(std::ceil((top - bench.floor_z) / step - 1e-9)));
+        std::max(1, static_cast<int>(std::ceil((top - bench.floor_z) / step - kWholeLevel)));
     HeightMap reached = tips;
     const auto untouched_z = static_cast<float>(bench.program.safe_z);
     std::fill(reached.z_mm.begin(), reached.z_mm.end(), untouched_z);

@@ -36,6 +36,7 @@ constexpr double kSameSide = 0.3;      // mm from the outermost point that count
 constexpr double kOverlapMm = 0.5;     // that the second side goes on below the first
 constexpr double kLevelFacet = 0.05;   // upward part of a normal: less is a wall
 constexpr double kStrayShare = 0.003;  // of the area facing a side: that little decides nothing
+constexpr double kSameSizeMm = 1e-6;   // a block lacks no less
 constexpr double kBetterTurn = 0.98;   // of the plan's area: a turn must win so much
 
 TriMesh moved(TriMesh mesh, const Isometry3d& map) {
@@ -125,7 +126,7 @@ Result<Vector3d> stock_size(const Vector3d& needed, const MillTask& task) {
         return Vector3d(needed.array().ceil());
     }
     const Vector3d lacking = needed - *task.stock_mm;
-    if (lacking.maxCoeff() > 1e-6) {
+    if (lacking.maxCoeff() > kSameSizeMm) {
         const auto size = [](const Vector3d& v) {
             return decomp::decimal(v.x(), 1) + " x " + decomp::decimal(v.y(), 1) + " x " +
                    decomp::decimal(v.z(), 1) + " mm";
