@@ -9,6 +9,7 @@
 #include "tools/check_input.h"
 #include "tools/exit_code.h"
 #include "tools/job_options.h"
+#include "tools/mill_proof.h"
 #include "tools/mill_report.h"
 #include "tools/values.h"
 
@@ -150,6 +151,15 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     if (!programs) {
         return decomp::fail(programs.error());
     }
+    std::vector<ProvedMilling> proofs;
+    for (std::size_t i = 0; i < programs->size(); ++i) {
+        auto proof =
+            prove_milling((*programs)[i].text, *plan, i, input->parts.front().mesh, *setup);
+        if (!proof) {
+            return decomp::fail(proof.error());
+        }
+        proofs.push_back(std::move(*proof));
+    }
     const std::string stem = command.out.stem().string();
     sheet.plan = &*plan;
     sheet.setup = &*setup;
@@ -159,6 +169,11 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     std::vector<MillFile> files = *programs;
     const auto stl = decomp::io::stl_bytes(input->parts.front().mesh);
     files.push_back({sheet.part_file, stl});
+    for (std::size_t i = 0; i < proofs.size(); ++i) {
+        files.push_back({(*programs)[i].name + ".proof.json", proofs[i].sidecar});
+        files.push_back(
+            {fs::path((*programs)[i].name).stem().string() + ".stock.ply", proofs[i].stock});
+    }
     files.push_back({"setup.json", setup_json(sheet).dump(1) + "\n"});
     files.push_back({stem + ".html", sheet_html(sheet)});
     const fs::path directory = command.out.parent_path();
@@ -180,21 +195,22 @@ Result<Answer> mill(const Command& command, const Run& outer) {
             return decomp::fail(done.error());
         }
     }
+    bool passed = true;
     for (std::size_t i = 0; i < programs->size(); ++i) {
-        const double seconds = moving_seconds(plan->programs[i], setup->machine);
-        answer.json["programs"].push_back({{"file", (*programs)[i].name},
-                                           {"moves", plan->programs[i].moves.size()},
-                                           {"moving_seconds", seconds}});
-        answer.text +=
-            (directory / (*programs)[i].name).string() + "  about " + duration_text(seconds) + "\n";
+        proofs[i].figures["file"] = (*programs)[i].name;
+        answer.json["programs"].push_back(proofs[i].figures);
+        answer.text += (directory / (*programs)[i].name).string() + "  " +
+                       duration_text(proofs[i].figures["seconds"].get<double>()) + "\n" +
+                       proofs[i].text;
+        passed = passed && proofs[i].passed;
     }
     answer.json["warnings"] = plan->warnings;
-    answer.json["proved"] = false;
+    answer.json["proved"] = passed;
+    answer.exit_code = passed ? kOk : kProofFailed;
     for (const std::string& warning : plan->warnings) {
         answer.text += "warning: " + warning + "\n";
     }
-    answer.text += (directory / (stem + ".html")).string() + "  set-up sheet\n" +
-                   "These programs are planned, not proved: look at them in a simulator first.\n";
+    answer.text += (directory / (stem + ".html")).string() + "  set-up sheet\n";
     return answer;
 }
 

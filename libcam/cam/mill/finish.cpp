@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kDip = 0.03;        // mm that a chord may stand over a hollow
 constexpr double kShortest = 0.02;   // mm in plan: a steeper step is a wall
 constexpr double kCoarsest = 0.1;    // mm in plan: a hollow is looked at down to here
-constexpr double kAboveCut = 0.5;    // mm over what is there before a tool slows down
+constexpr double kAboveCut = 1.0;    // mm over what is there before a tool slows down
 constexpr double kOnFloor = 1e-6;    // mm: nothing is finished there
 constexpr double kLevelShare = 0.8;  // of the stepover: levels on slopes not quite upright
 constexpr double kPlaceMm = 0.002;   // to which a level line is moved onto the surface
@@ -58,12 +58,26 @@ class Tip {
     }
 
   private:
+    /// On a steep chord the surface may cross twice and be right at the middle.
+    [[nodiscard]] bool crosses_steep(const Vector3d& a, const Vector3d& b) const {
+        if (std::abs(b.z() - a.z()) < (b - a).head<2>().norm()) {
+            return false;
+        }
+        for (const double share : {0.25, 0.75}) {
+            const Vector3d p = a + share * (b - a);
+            if (!drop_.clears(p.head<2>(), p.z() + kFinishToleranceMm)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     void refine(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& out) const {
         const Vector2d middle = (a + b).head<2>() / 2;
         const double length = (b - a).head<2>().norm();
         const double chord = (a.z() + b.z()) / 2;
         const double z = lowest(middle, chord - kDip);
-        const bool gouges = z > chord + kFinishToleranceMm;
+        const bool gouges = z > chord + kFinishToleranceMm || crosses_steep(a, b);
         const bool dips = z <= chord - kDip && length > kCoarsest;
         if (!gouges && !dips) {
             return;
@@ -74,7 +88,7 @@ class Tip {
             out.emplace_back(low.x(), low.y(), std::max({z, a.z(), b.z()}));
             return;
         }
-        const Vector3d split(middle.x(), middle.y(), dips ? lowest(middle) : z);
+        const Vector3d split(middle.x(), middle.y(), z > chord - kDip ? z : lowest(middle));
         refine(a, split, out);
         out.push_back(split);
         refine(split, b, out);
@@ -335,39 +349,60 @@ class Finishing {
         return clear;
     }
 
-    /// Moves a chord's middle out until it is clear, and asks again for its halves.
+    /// From `from` along a direction, clear or not by `start`, to where that changes: the last
+    /// clear distance, within kPlaceMm; nothing within `farthest`.
+    [[nodiscard]] std::optional<double> brink(const Vector2d& from, const Vector2d& direction,
+                                              bool start_clear, double start, double farthest,
+                                              double z) const {
+        double near = start;
+        double far = 2 * start;
+        while (far < farthest && tip_.clears(from + far * direction, z) == start_clear) {
+            near = far;
+            far *= 2;
+        }
+        if (far >= farthest) {
+            return std::nullopt;
+        }
+        while (far - near > kPlaceMm) {
+            const double half = (near + far) / 2;
+            (tip_.clears(from + half * direction, z) == start_clear ? near : far) = half;
+        }
+        return start_clear ? near : far;
+    }
+
+    /// Moves a chord's middle onto the surface, out of what it cuts or into the hollow that it
+    /// passes over, and asks again for its halves.
     void clear_chord(const Vector2d& a, const Vector2d& b, double z, int depth,
                      std::vector<Vector3d>& out) const {
         const Vector2d along = b - a;
         const double length = along.norm();
-        if (depth > 0 && length > kShortest) {
-            const Vector2d out_of(-along.y() / length, along.x() / length);  // clear is to the left
-            const Vector2d middle = (a + b) / 2;
-            if (!tip_.clears(middle + kFinishToleranceMm * out_of, z)) {
-                double blocked = kFinishToleranceMm;
-                double clear = 2 * blocked;
-                while (clear < length && !tip_.clears(middle + clear * out_of, z)) {
-                    blocked = clear;
-                    clear *= 2;
-                }
-                if (clear < length) {
-                    while (clear - blocked > kPlaceMm) {
-                        const double half = (clear + blocked) / 2;
-                        (tip_.clears(middle + half * out_of, z) ? clear : blocked) = half;
-                    }
-                    const Vector2d split = middle + clear * out_of;
-                    clear_chord(a, split, z, depth - 1, out);
-                    out.emplace_back(split.x(), split.y(), z);
-                    clear_chord(split, b, z, depth - 1, out);
-                    return;
-                }
-                // No way round at this height: over it.
-                std::vector<Vector3d> over;
-                tip_.follow(Vector3d(a.x(), a.y(), z), Vector3d(b.x(), b.y(), z), over);
-                for (Vector3d& p : over) {
-                    p.z() = std::max(p.z(), z);
-                    out.push_back(p);
-                }
+        if (depth == 0 || length <= kShortest) {
+            return;
+        }
+        const Vector2d free(-along.y() / length, along.x() / length);  // clear is to the left
+        const Vector2d middle = (a + b) / 2;
+        std::optional<Vector2d> split;
+        const bool cuts = !tip_.clears(middle + kFinishToleranceMm * free, z);
+        if (cuts) {
+            if (const auto by = brink(middle, free, false, kFinishToleranceMm, length, z)) {
+                split = middle + *by * free;
+            }
+        } else if (length > kCoarsest && tip_.clears(middle - kDip * free, z)) {
+            if (const auto by = brink(middle, -free, true, kDip, length, z)) {
+                split = middle - *by * free;
+            }
+        }
+        if (split) {
+            clear_chord(a, *split, z, depth - 1, out);
+            out.emplace_back(split->x(), split->y(), z);
+            clear_chord(*split, b, z, depth - 1, out);
+        } else if (cuts) {
+            // No way round at this height: over it.
+            std::vector<Vector3d> over;
+            tip_.follow(Vector3d(a.x(), a.y(), z), Vector3d(b.x(), b.y(), z), over);
+            for (Vector3d& p : over) {
+                p.z() = std::max(p.z(), z);
+                out.push_back(p);
             }
         }
     }

@@ -21,14 +21,16 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using polygon::Paths;
 
-constexpr double kRampSlope = 0.0524;  // 3 degrees
-constexpr double kAboveCut = 0.5;      // mm over what is there before a tool slows down
-constexpr double kNarrow = 0.1;        // of the diameter: half the least width of a pocket
-constexpr double kShortRing = 0.6;     // diameters: a shorter ring is swept by its neighbour
-constexpr double kRestMm = 0.15;       // that a second tool finds worth cutting
-constexpr double kThin = 0.02;         // mm by which rings are simplified
-constexpr double kWholeLevel = 1e-9;   // of a level: rounding makes no further one
-constexpr int kMostRings = 4000;       // of one island
+constexpr double kRampSlope = 0.0524;    // 3 degrees
+constexpr double kAboveCut = 0.5;        // mm over what is there before a tool slows down
+constexpr double kNarrow = 0.1;          // of the diameter: half the least width of a pocket
+constexpr double kShortRing = 0.6;       // diameters: a shorter ring is swept by its neighbour
+constexpr double kShortRoundRing = 0.1;  // the same of a round tip
+constexpr double kRoundStep = 0.25;      // diameters between the rings of a round tip
+constexpr double kRestMm = 0.15;         // that a second tool finds worth cutting
+constexpr double kThin = 0.02;           // mm by which rings are simplified
+constexpr double kWholeLevel = 1e-9;     // of a level: rounding makes no further one
+constexpr int kMostRings = 4000;         // of one island
 
 /// One tool at one level.
 struct Level {
@@ -43,7 +45,7 @@ class Roughing {
         : writer_(writer), bench_(bench), cutter_(cutter), tips_(std::move(tips)) {}
 
     void cut_level(const Level& level) {
-        const double over = cutter_.feeds.rough.step_over_mm;
+        const double over = ring_step();
         for (const polygon::Island& island : polygon::islands(level.allowed)) {
             std::vector<Paths> rings{island.loops()};
             while (!rings.back().empty() && rings.size() < kMostRings) {
@@ -59,10 +61,25 @@ class Roughing {
     }
 
   private:
+    [[nodiscard]] bool is_round() const {
+        return cutter_.tool.shape != tool::Shape::Flat &&
+               cutter_.tool.shape != tool::Shape::BullNose;
+    }
+
+    /// A round tip leaves ridges between rings: later rapids must not meet them.
+    [[nodiscard]] double ring_step() const {
+        const double step = cutter_.feeds.rough.step_over_mm;
+        return is_round() ? std::min(step, kRoundStep * cutter_.tool.diameter_mm) : step;
+    }
+
+    [[nodiscard]] double shortest_ring() const {
+        return (is_round() ? kShortRoundRing : kShortRing) * cutter_.tool.diameter_mm;
+    }
+
     void cut_rings(const Paths& rings, const Level& level, bool inner, bool& first) {
         std::vector<std::vector<Vector2d>> loops;
         for (const polygon::Path& ring : polygon::simplified(rings, kThin)) {
-            if (inner && polygon::perimeter_mm(ring) < kShortRing * cutter_.tool.diameter_mm) {
+            if (inner && polygon::perimeter_mm(ring) < shortest_ring()) {
                 continue;
             }
             std::vector<Vector2d>& loop = loops.emplace_back();
@@ -239,6 +256,7 @@ decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench, const 
     writer.take(cutter, cutter.feeds.rough.spindle_rpm,
                 rest_only ? path::MillOperation::RestRough : path::MillOperation::Rough);
     Roughing roughing(writer, bench, cutter, tips);
+    Paths opened;
     for (int k = 1; k <= levels; ++k) {
         if (run.cancelled()) {
             return decomp::cancelled();
@@ -248,6 +266,15 @@ decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench, const 
         level.above = top - (top - bench.floor_z) * (k - 1) / levels;
         level.allowed = polygon::opened(region_below(tips, level.z, rest_only ? &air : nullptr),
                                         kNarrow * cutter.tool.diameter_mm, polygon::Join::Round);
+        if (k > 1) {
+            // Never below what this tool has not opened from above: no cut deeper than a level.
+            level.allowed = polygon::intersect(
+                level.allowed,
+                rest_only
+                    ? polygon::unite(opened, region_below(air, level.above + kRestMm, nullptr))
+                    : opened);
+        }
+        opened = level.allowed;
         roughing.cut_level(level);
         lower_inside(reached, level.allowed, static_cast<float>(level.z));
     }

@@ -109,7 +109,7 @@ TEST(MillPlan, NoPointOfAPathCutsIntoThePart) {
         }
         // A point beside the part by the tolerance is no gouge: try the four sides.
         double tip = 1e9;
-        for (const Eigen::Vector2d by :
+        for (const Eigen::Vector2d& by :
              {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.012, 0), Eigen::Vector2d(-0.012, 0),
               Eigen::Vector2d(0, 0.012), Eigen::Vector2d(0, -0.012)}) {
             tip = std::min(tip, tests::slow_drop(part, tools.at(piece.tool), at.head<2>() + by,

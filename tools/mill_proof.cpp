@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/mill_proof.h"
+
+#include "cam/millproof/prove.h"
+#include "cam/millproof/record.h"
+#include "decomp/base/number.h"
+
+namespace tools {
+
+namespace {
+
+constexpr std::size_t kFaultsTold = 8;
+constexpr double kColourRangeMm = 0.5;
+
+Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& map) {
+    Eigen::AlignedBox3d out;
+    out.extend(map * box.min());
+    out.extend(map * box.max());
+    return out;
+}
+
+}  // namespace
+
+decomp::Result<ProvedMilling> prove_milling(const std::string& program,
+                                            const cam::path::MillPlan& plan, std::size_t set_up,
+                                            const decomp::mesh::TriMesh& part,
+                                            const cam::profile::MillSetup& setup) {
+    const cam::path::MillProgram& planned = plan.programs[set_up];
+    decomp::mesh::TriMesh here = part;
+    for (Eigen::Vector3d& p : here.points) {
+        p = planned.from_model * p;
+    }
+    cam::millproof::MillJob job;
+    job.part = &here;
+    job.stock = planned.stock;
+    job.safe_z = planned.safe_z;
+    job.floor_z = planned.floor_z;
+    job.border_holds = planned.hold == cam::path::Hold::Frame;
+    job.keep_outs = planned.keep_outs;
+    const Eigen::Isometry3d turn =
+        planned.from_model.map() * plan.programs.front().from_model.map().inverse();
+    for (const auto& keep : plan.keeps) {
+        job.keeps.push_back(moved(keep.box, turn));
+    }
+    for (const auto& tool : plan.tools) {
+        job.tools.push_back({tool, 0});
+    }
+    job.machine = setup.machine;
+    job.dialect = setup.dialect;
+    const cam::millproof::ProofOptions options;
+    const auto proof = cam::millproof::prove(program, job, options);
+    if (!proof) {
+        return decomp::fail(proof.error());
+    }
+    const auto& figures = proof->figures;
+    ProvedMilling out;
+    out.passed = proof->passed();
+    out.sidecar = cam::millproof::proof_json(*proof, program, job, options, setup.hash);
+    out.stock = cam::millproof::deviation_ply(
+        cam::millproof::deviation_mesh(proof->stock, job, kColourRangeMm, 2));
+    out.figures = {{"passed", out.passed},
+                   {"seconds", figures.seconds},
+                   {"cut_mm", figures.cut_mm},
+                   {"rapid_mm", figures.rapid_mm},
+                   {"lines", figures.lines},
+                   {"max_gouge_mm", figures.max_gouge_mm},
+                   {"max_excess_mm", figures.max_excess_mm},
+                   {"excess_999_mm", figures.excess_999_mm},
+                   {"unreachable_percent", 100 * figures.unreachable},
+                   {"rapid_hits", figures.rapid_hits},
+                   {"faults", proof->faults.size()}};
+    out.text = std::string("  proof: ") + (out.passed ? "passed" : "FAILED") + "; gouge " +
+               decomp::decimal(figures.max_gouge_mm, 3) + ", rest " +
+               decomp::decimal(figures.excess_999_mm, 3) + " mm (99.9 %), out of reach " +
+               decomp::decimal(100 * figures.unreachable, 1) + " %, rapids into stock " +
+               std::to_string(figures.rapid_hits) + "\n";
+    for (std::size_t i = 0; i < proof->faults.size() && i < kFaultsTold; ++i) {
+        const auto& fault = proof->faults[i];
+        out.text +=
+            "    " + fault.kind + ", line " + std::to_string(fault.line) + ": " + fault.what + "\n";
+    }
+    if (proof->faults.size() > kFaultsTold) {
+        out.text += "    and " + std::to_string(proof->faults.size() - kFaultsTold) + " more\n";
+    }
+    return out;
+}
+
+}  // namespace tools
