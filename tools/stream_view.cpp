@@ -52,6 +52,12 @@ class KeyMode {
     bool changed_ = false;
 };
 
+/// A figure of the machine; whatever it says, the job goes on.
+std::string figure(double value, int decimals) {
+    constexpr double kMost = 1e8;
+    return std::abs(value) < kMost ? decomp::fixed(value, decimals) : std::string("?");
+}
+
 const char* kind_name(const Notice& notice) {
     if (notice.kind == Notice::Kind::LinkLost) {
         return "link_lost";
@@ -298,15 +304,14 @@ void StreamView::status_line(const Notice& notice) {
     }
     for (int axis = 0; axis < notice.status.axes; ++axis) {
         const double value = notice.status.position_mm.at(static_cast<std::size_t>(axis));
-        text += std::string(" ") + "XYZABC"[axis] +
-                (std::isnan(value) ? std::string("?") : decomp::fixed(value, 2));
+        text += std::string(" ") + "XYZABC"[axis] + figure(value, 2);
     }
     for (const cam::protocol::Heater& heater : notice.status.heaters) {
-        text += " " + heater.name + ":" + decomp::fixed(heater.celsius, 0) + "/" +
-                decomp::fixed(heater.target_celsius, 0);
+        text += " " + heater.name + ":" + figure(heater.celsius, 0) + "/" +
+                figure(heater.target_celsius, 0);
     }
     if (notice.status.feed_override != 1) {
-        text += " feed " + decomp::fixed(100 * notice.status.feed_override, 0) + "%";
+        text += " feed " + figure(100 * notice.status.feed_override, 0) + "%";
     }
     if (progress.resent > 0) {
         text += " resent " + std::to_string(progress.resent);

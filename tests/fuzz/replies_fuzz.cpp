@@ -4,6 +4,7 @@
 #include "cam/protocol/marlin_reply.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -14,6 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string_view line = bytes.substr(0, end);
         const auto marlin = cam::protocol::read_marlin_reply(line);
         const auto grbl = cam::protocol::read_grbl_reply(line);
+        for (const auto& heater : marlin.heaters) {
+            if (!(std::abs(heater.celsius) < 1e8) || !(std::abs(heater.target_celsius) < 1e8)) {
+                __builtin_trap();
+            }
+        }
         if (marlin.heaters.size() > line.size() || grbl.axes > 6 || grbl.count > 6) {
             __builtin_trap();
         }

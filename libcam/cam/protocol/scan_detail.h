@@ -2,22 +2,38 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
+#include <system_error>
+#include <type_traits>
 
 /// Reading numbers out of replies; nothing here throws, whatever the bytes.
 namespace cam::protocol::detail {
 
+/// Beyond all that a machine measures or sets.
+inline constexpr double kFarthest = 1e7;
+
 /// The number at the beginning of `text`, taken off it; nothing when there is none or it is out of
-/// range.
+/// range. Fractions have no exponent, and "nan", "inf" or more than kFarthest is none: a disturbed
+/// line says anything.
 template <class Number>
 [[nodiscard]] std::optional<Number> take_number(std::string_view& text) {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{}) {
+    std::from_chars_result read{};
+    if constexpr (std::is_floating_point_v<Number>) {
+        read = std::from_chars(text.data(), text.data() + text.size(), value,
+                               std::chars_format::fixed);
+        if (!(std::abs(value) <= kFarthest)) {
+            return std::nullopt;
+        }
+    } else {
+        read = std::from_chars(text.data(), text.data() + text.size(), value);
+    }
+    if (read.ec != std::errc{}) {
         return std::nullopt;
     }
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
     return value;
 }
 

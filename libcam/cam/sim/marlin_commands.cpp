@@ -4,6 +4,8 @@
 #include "cam/sim/marlin_board.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -24,7 +26,16 @@ bool parameter(const std::string& text, char letter, double& value) {
     if (at == std::string::npos) {
         return false;
     }
-    value = std::strtod(text.c_str() + at + 1, nullptr);
+    // No exponent: the E of "Y9.5E2" is the next word, as in the firmware.
+    value = 0;
+    const char* begin = text.data() + at + 1;
+    begin += *begin == '+' ? 1 : 0;
+    double read = 0;
+    const auto [end, error] =
+        std::from_chars(begin, text.data() + text.size(), read, std::chars_format::fixed);
+    if (error == std::errc{} && std::isfinite(read)) {
+        value = read;
+    }
     return true;
 }
 

@@ -118,6 +118,25 @@ TEST(GrblReplies, EveryNumberHasWords) {
     }
 }
 
+TEST(Replies, FiguresThatNoMachineHasAreNone) {
+    for (const char* figure : {"nan", "inf", "-inf", "1e300", "99999999999", "9890E12"}) {
+        const std::string value(figure);
+        const std::string place = "X:" + value + " Y:1.00 Z:2.00 E:0.00 Count X:0 Y:0 Z:0";
+        const MarlinReply position = read_marlin_reply(place);
+        if (position.position_mm) {
+            const double x = (*position.position_mm)[0];
+            EXPECT_TRUE(std::isnan(x) || std::abs(x) <= 1e7) << figure;
+        }
+        for (const Heater& heater : read_marlin_reply("T:" + value + " /" + value).heaters) {
+            EXPECT_LE(std::abs(heater.celsius), 1e7) << figure;
+            EXPECT_LE(std::abs(heater.target_celsius), 1e7) << figure;
+        }
+        EXPECT_EQ(read_grbl_reply("<Idle|MPos:" + value + ",0.000,0.000|FS:0,0>").kind,
+                  GrblReply::Kind::Garbled)
+            << figure;
+    }
+}
+
 TEST(LineSplitter, CutsAtEveryEndAndDropsEmptyLines) {
     LineSplitter splitter;
     std::string_view bytes = "ok\r\n\nsta";

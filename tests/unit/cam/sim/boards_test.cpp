@@ -36,6 +36,16 @@ TEST(MarlinBoard, RefusesWrongSumsAndNumbersAndNamesItsLastLine) {
               "Error:No Checksum with line number, Last Line: 1\nResend: 2\nok\n");
 }
 
+TEST(MarlinBoard, AnEBehindANumberIsTheExtruderAndNoExponent) {
+    BoardOptions options;
+    options.instant = true;
+    MarlinBoard board(options);
+    board.reset(Time{});
+    (void)say(board, "G1X1Y9.5E2F3000\n", Time{});
+    EXPECT_DOUBLE_EQ(board.position(Time{})[1], 9.5);
+    EXPECT_DOUBLE_EQ(board.position(Time{})[3], 2);
+}
+
 TEST(MarlinBoard, MovesTakeTheirTimeAndTheSeventeenthWaits) {
     MarlinBoard board({});
     board.reset(Time{});
