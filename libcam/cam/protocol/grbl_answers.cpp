@@ -199,11 +199,13 @@ void Grbl::on_status(const GrblReply& reply, Instant now) {
         return;
     }
     const bool holds = name == "Hold" || name == "Door" || name == "Tool";
-    if (phase_ == Phase::Running && holds) {
+    // A report that was under way when the operator paused or resumed is no news.
+    const bool fresh = now - pause_at_ > 2 * options_.poll;
+    if (phase_ == Phase::Running && holds && fresh) {
         phase_ = Phase::Paused;
         paused_here_ = false;
         emit(Event::Kind::Paused, "by the machine: " + std::string(reply.state));
-    } else if (phase_ == Phase::Paused && !holds && now - pause_at_ > 2 * options_.poll) {
+    } else if (phase_ == Phase::Paused && !holds && fresh) {
         phase_ = Phase::Running;
         emit(Event::Kind::Resumed, "at the machine");
         fill(now);

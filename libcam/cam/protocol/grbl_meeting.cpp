@@ -202,9 +202,12 @@ void Grbl::wish(Wish wish, Instant now) {
             stop(wish, now);
             break;
         case Wish::Pause:
-            if (phase_ == Phase::Running) {
+            // Also when it is believed to be paused: the machine knows better.
+            if (phase_ == Phase::Running || phase_ == Phase::Paused) {
                 out_.urgent += '!';
                 pause_at_ = now;
+            }
+            if (phase_ == Phase::Running) {
                 phase_ = Phase::Paused;
                 paused_here_ = true;
                 emit(Event::Kind::Paused, "by the operator; the spindle keeps turning");

@@ -57,6 +57,7 @@ class Marlin final : public Protocol {
     void acknowledge(std::size_t entries, Instant now);
     void go_back(std::size_t entries, Instant now);
     void enter(Step step, Instant now);
+    [[nodiscard]] Step first_step() const;
     void next_step(Instant now);
     void say_step(Instant now);
     void meeting_reply(const MarlinReply& reply, Instant now);

@@ -10,6 +10,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr Instant kLeastStepWait = 250ms;
 constexpr Instant kStepWait = 2s;  ///< for the answer to a line while meeting
 constexpr int kStepTries = 6;
 constexpr Instant kTemperaturesEvery = 5s;
@@ -20,7 +21,9 @@ constexpr int kSilenceDoublings = 8;
 void Marlin::meet(Meeting meeting, Instant now) {
     phase_ = Phase::Meeting;
     meeting_ = meeting;
-    identity_ = {};
+    if (meeting == Meeting::Fresh) {
+        identity_ = {};
+    }
     splitter_.clear();
     query_pending_ = fault_pending_ = step_refused_ = false;
     swallow_ok_ = 0;
@@ -31,8 +34,17 @@ void Marlin::meet(Meeting meeting, Instant now) {
         step_ = Step::Banner;
         step_until_ = now + options_.banner_wait;
     } else {
-        enter(meeting == Meeting::Again ? Step::Name : Step::Clear, now);
+        enter(first_step(), now);
     }
+}
+
+/// A board that is known is asked for its last line and for nothing else: the question for its name
+/// has no number, and disturbed it could be another command.
+Marlin::Step Marlin::first_step() const {
+    if (meeting_ == Meeting::Fresh) {
+        return Step::Clear;
+    }
+    return identity_.firmware.empty() ? Step::Name : Step::Confirm;
 }
 
 void Marlin::enter(Step step, Instant now) {
@@ -48,7 +60,7 @@ void Marlin::say_step(Instant now) {
             "the machine does not answer: is this its port, its baud rate, and is it switched on?");
         return;
     }
-    step_until_ = now + std::min(kStepWait, options_.silence);
+    step_until_ = now + std::clamp(options_.silence, kLeastStepWait, kStepWait);
     step_refused_ = false;
     last_send_ = now;
     switch (step_) {
@@ -264,7 +276,7 @@ void Marlin::tick(Instant now) {
     }
     if (phase_ == Phase::Meeting && now >= step_until_) {
         if (step_ == Step::Banner) {
-            enter(meeting_ == Meeting::Again ? Step::Name : Step::Clear, now);
+            enter(first_step(), now);
         } else {
             swallow_ok_ = 0;
             say_step(now);

@@ -286,6 +286,20 @@ TEST_F(MarlinAtWork, NothingLeavesThatIsNotAllowed) {
     EXPECT_EQ(bytes_of(held), numbered_line(10003, "G1X3"));
 }
 
+TEST_F(MarlinAtWork, AKnownBoardIsOnlyAskedForItsLastLineAfterTheLinkWasLost) {
+    hear("ok\n");
+    conversation.lose_link(now);
+    conversation.meet(Meeting::Again, now);
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    conversation.receive(
+        "Error:Line Number is not Last Line Number+1, Last Line: 10002\nResend: 10003\nok\n", now);
+    const Output out = conversation.take_output();
+    ASSERT_FALSE(out.events.empty());
+    EXPECT_EQ(out.events.back().kind, Event::Kind::Ready);
+    EXPECT_EQ(out.events.back().line, 2);
+    EXPECT_EQ(conversation.identity().machine, "Test");
+}
+
 struct GrblAtWork : testing::Test {
     JobLines job = three_moves();
     LinkOptions options = at_once();
@@ -442,6 +456,21 @@ TEST_F(GrblAtWork, AHomingThatFailsEndsTheJobBeforeItBegins) {
         ASSERT_FALSE(out.events.empty()) << answer;
         EXPECT_EQ(out.events.back().code, "protocol.homing_failed");
     }
+}
+
+TEST_F(GrblAtWork, APauseAlwaysReachesTheMachineWhateverALateReportSaid) {
+    Grbl conversation(job, options);
+    meet(conversation);
+    conversation.run(0, now);
+    conversation.wish(Wish::Pause, now);
+    now += 1s;
+    conversation.wish(Wish::Resume, now);
+    (void)conversation.take_output();
+    hear(conversation, "<Hold:0|MPos:0,0,0>\n", now);  // was under way
+    EXPECT_EQ(conversation.phase(), Phase::Running);
+    conversation.wish(Wish::Pause, now);
+    conversation.wish(Wish::Pause, now);
+    EXPECT_EQ(conversation.take_output().urgent, "!!");
 }
 
 TEST_F(GrblAtWork, PauseAndOverridesAreBytesOutsideTheCount) {
