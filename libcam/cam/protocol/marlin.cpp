@@ -31,10 +31,6 @@ void Marlin::run(std::size_t first, Instant now) {
     phase_ = Phase::Running;
     window_ = 1;
     last_sign_ = last_send_ = poll_at_ = now;
-    if (const auto place = identity_.capabilities.find("AUTOREPORT_POS");
-        place != identity_.capabilities.end() && place->second == "1") {
-        asides_.emplace_back("M154 S1");
-    }
     fill(now);
 }
 

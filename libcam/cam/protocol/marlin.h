@@ -46,7 +46,7 @@ class Marlin final : public Protocol {
 
   private:
     /// How far meeting the board is.
-    enum class Step { Banner, Clear, Name, Autoreport, Number, Confirm };
+    enum class Step { Banner, Clear, Name, Autoreport, ReportPlace, Number, Confirm };
 
     void reply(std::string_view line, Instant now);
     void on_ok(const MarlinReply& reply, Instant now);

@@ -75,6 +75,9 @@ void Marlin::say_step(Instant now) {
         case Step::Autoreport:
             out_.bytes += numbered_line(2, "M155 S1");
             break;
+        case Step::ReportPlace:
+            out_.bytes += numbered_line(polls_ ? 2 : 3, "M154 S1");
+            break;
         case Step::Number: {
             const std::string before = std::to_string(kFirstNumber - 1);
             out_.bytes += numbered_line(kFirstNumber - 1, "M110 N" + before);
@@ -87,6 +90,10 @@ void Marlin::say_step(Instant now) {
 }
 
 void Marlin::next_step(Instant now) {
+    const auto can = [this](const char* capability) {
+        const auto told = identity_.capabilities.find(capability);
+        return told != identity_.capabilities.end() && told->second == "1";
+    };
     switch (step_) {
         case Step::Banner:
         case Step::Clear:
@@ -94,17 +101,20 @@ void Marlin::next_step(Instant now) {
             break;
         case Step::Name: {
             emit(Event::Kind::Identified);
-            const auto reports = identity_.capabilities.find("AUTOREPORT_TEMP");
-            const bool can = reports != identity_.capabilities.end() && reports->second == "1";
-            polls_ = !can;
+            polls_ = !can("AUTOREPORT_TEMP");
             if (meeting_ == Meeting::Again) {
                 enter(Step::Confirm, now);
-                break;
+            } else if (!polls_) {
+                enter(Step::Autoreport, now);
+            } else {
+                enter(can("AUTOREPORT_POS") ? Step::ReportPlace : Step::Number, now);
             }
-            enter(can ? Step::Autoreport : Step::Number, now);
             break;
         }
         case Step::Autoreport:
+            enter(can("AUTOREPORT_POS") ? Step::ReportPlace : Step::Number, now);
+            break;
+        case Step::ReportPlace:
             enter(Step::Number, now);
             break;
         case Step::Number:
@@ -152,7 +162,8 @@ void Marlin::meeting_reply(const MarlinReply& reply, Instant now) {
                 return;
             }
             enter(meeting_ == Meeting::Again ? Step::Name : Step::Clear, now);
-        } else if (step_refused_ && step_ != Step::Name && step_ != Step::Autoreport) {
+        } else if (step_refused_ && step_ != Step::Name && step_ != Step::Autoreport &&
+                   step_ != Step::ReportPlace) {
             say_step(now);
         } else {
             next_step(now);

@@ -286,6 +286,18 @@ TEST_F(MarlinAtWork, NothingLeavesThatIsNotAllowed) {
     EXPECT_EQ(bytes_of(held), numbered_line(10003, "G1X3"));
 }
 
+TEST_F(MarlinAtWork, ReportsAreAskedForWithNumbersAndSums) {
+    Marlin one(job, at_once());
+    one.meet(Meeting::Fresh, now);
+    one.receive("ok\nFIRMWARE_NAME:Marlin 2\nCap:AUTOREPORT_TEMP:1\nCap:AUTOREPORT_POS:1\nok\n",
+                now);
+    one.receive("ok\nok\n", now);
+    const std::string said = bytes_of(one);
+    EXPECT_NE(said.find(numbered_line(2, "M155 S1") + numbered_line(3, "M154 S1")),
+              std::string::npos)
+        << said;
+}
+
 TEST_F(MarlinAtWork, AKnownBoardIsOnlyAskedForItsLastLineAfterTheLinkWasLost) {
     hear("ok\n");
     conversation.lose_link(now);
