@@ -29,28 +29,44 @@ struct Executed {
     std::atomic<std::size_t> count{0};    ///< in place
     std::atomic<std::size_t> changed{0};  ///< of these, other than sent
     std::atomic<std::size_t> added{0};    ///< that nobody sent
+    std::atomic<std::size_t> lost{0};     ///< of these, left out
     std::string first_difference;
-    bool last_differs = false;
+    std::size_t strangers = 0;  ///< in a row, the last ones
+
+    static constexpr std::size_t kFarthest = 8;  ///< lines to look ahead for what was left out
 
     void take(std::string_view text) {
         const std::size_t index = count;
         if (!wanted || text == wanted(index)) {
             ++count;
-            last_differs = false;
-        } else if (last_differs && text == wanted(index - 1)) {
-            // What came before belongs to no place.
-            ++added;
-            --changed;
-            last_differs = false;
-        } else {
-            if (first_difference.empty()) {
-                first_difference = std::to_string(index) + ": '" + std::string(text) +
-                                   "' instead of '" + wanted(index) + "'";
-            }
-            ++count;
-            ++changed;
-            last_differs = true;
+            strangers = 0;
+            return;
         }
+        if (first_difference.empty()) {
+            first_difference = std::to_string(index) + ": '" + std::string(text) +
+                               "' instead of '" + wanted(index) + "'";
+        }
+        for (std::size_t back = 1; back <= strangers; ++back) {
+            if (text == wanted(index - back)) {
+                // As many of those before belong to no place.
+                added += back;
+                changed -= back;
+                count = index - back + 1;
+                strangers = 0;
+                return;
+            }
+        }
+        for (std::size_t ahead = 1; ahead <= kFarthest; ++ahead) {
+            if (text == wanted(index + ahead)) {
+                lost += ahead;
+                count = index + ahead + 1;
+                strangers = 0;
+                return;
+            }
+        }
+        ++count;
+        ++changed;
+        ++strangers;
     }
 };
 

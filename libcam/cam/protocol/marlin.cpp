@@ -270,7 +270,7 @@ void Marlin::query(Instant now) {
         aside_.clear();
     }
     // The newline ends what may have been left of a line whose end was lost.
-    out_.bytes += "\n" + numbered_line(1, "M105");
+    out_.bytes += "\n" + numbered_line(kQueryNumber, "M105");
     last_send_ = now;
 }
 

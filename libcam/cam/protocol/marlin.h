@@ -16,12 +16,15 @@ namespace cam::protocol {
 ///
 /// Entry i of the job always travels as line kFirstNumber + i: whatever happens, also to this
 /// process, the number of the last line that the board has tells exactly how far the job is. It is
-/// asked for with the query "N1 M105": a board in the middle of a job refuses it and names its last
-/// line, a board that was reset executes it. Nothing else is ever sent on a guess. The numbers are
-/// high, so that a flipped first letter (N to G, M or T) makes no known command of them.
+/// asked for with the query "N9999 M105": no board ever expects that number, so each refuses it and
+/// names its last line; one that was reset names 0. Nothing else is ever sent on a guess. All
+/// numbers are high, so that a flipped first letter (N to G, M or T) makes no known command of
+/// them.
 class Marlin final : public Protocol {
   public:
     static constexpr long kFirstNumber = 10001;
+    static constexpr long kMeetingNumber = 9990;  ///< of the first line that is ever sent
+    static constexpr long kQueryNumber = 9999;    ///< of a line that no board expects
 
     /// `job` must outlive this.
     Marlin(const JobLines& job, LinkOptions options);

@@ -67,16 +67,18 @@ void Marlin::say_step(Instant now) {
         case Step::Banner:
             break;
         case Step::Clear:
-            out_.bytes += "\n" + numbered_line(0, "M110 N0");
+            out_.bytes +=
+                "\n" + numbered_line(kMeetingNumber, "M110 N" + std::to_string(kMeetingNumber));
             break;
         case Step::Name:
-            out_.bytes += meeting_ == Meeting::Again ? "\nM115\n" : numbered_line(1, "M115");
+            out_.bytes +=
+                meeting_ == Meeting::Again ? "\nM115\n" : numbered_line(kMeetingNumber + 1, "M115");
             break;
         case Step::Autoreport:
-            out_.bytes += numbered_line(2, "M155 S1");
+            out_.bytes += numbered_line(kMeetingNumber + 2, "M155 S1");
             break;
         case Step::ReportPlace:
-            out_.bytes += numbered_line(polls_ ? 2 : 3, "M154 S1");
+            out_.bytes += numbered_line(kMeetingNumber + (polls_ ? 2 : 3), "M154 S1");
             break;
         case Step::Number: {
             const std::string before = std::to_string(kFirstNumber - 1);
@@ -84,7 +86,7 @@ void Marlin::say_step(Instant now) {
             break;
         }
         case Step::Confirm:
-            out_.bytes += "\n" + numbered_line(1, "M105");
+            out_.bytes += "\n" + numbered_line(kQueryNumber, "M105");
             break;
     }
 }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace {
 
 using namespace cam::protocol;
@@ -83,7 +85,7 @@ TEST_F(MarlinAtWork, SendsARefusedLineAgainAndSwallowsTheAnswerToTheRefusal) {
 TEST_F(MarlinAtWork, AsksWhereTheBoardIsInsteadOfGuessingAfterASilence) {
     now += 1500ms;
     conversation.tick(now);
-    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(9999, "M105"));
     // It has the line: only the answer was lost.
     EXPECT_EQ(
         hear("Error:Line Number is not Last Line Number+1, Last Line: 10001\nResend: 10002\nok\n"),
@@ -104,7 +106,7 @@ TEST_F(MarlinAtWork, DisturbedRequestsAreNotFollowed) {
     hear("ok\n");
     // Number and last line contradict each other: the board is asked again.
     EXPECT_EQ(hear("Error:checksum mismatch, Last Line: 10001\nResend: 10003\nok\n"),
-              "\n" + numbered_line(1, "M105"));
+              "\n" + numbered_line(9999, "M105"));
     // Far outside of what is under way, again and again: not our board any more.
     for (int i = 0; i < 3; ++i) {
         hear("Resend: 34497\nok\n");
@@ -112,14 +114,27 @@ TEST_F(MarlinAtWork, DisturbedRequestsAreNotFollowed) {
     EXPECT_EQ(conversation.phase(), Phase::Failed);
 }
 
-TEST_F(MarlinAtWork, ABoardThatTakesLineOneWasReset) {
+TEST_F(MarlinAtWork, ABoardWhoseLastLineIsNoneWasReset) {
     now += 1500ms;
     conversation.tick(now);
     (void)conversation.take_output();
-    conversation.receive("ok T:20.0 /0.0 B:20.0 /0.0\n", now);
-    const Output out = conversation.take_output();
-    ASSERT_EQ(out.events.size(), 1U);
-    EXPECT_EQ(out.events[0].code, "protocol.machine_reset");
+    for (int i = 0; i < 3; ++i) {
+        conversation.receive(
+            "Error:Line Number is not Last Line Number+1, Last Line: 0\nResend: 1\nok\n", now);
+    }
+    EXPECT_EQ(conversation.phase(), Phase::Failed);
+    EXPECT_EQ(conversation.take_output().events.back().code, "protocol.machine_reset");
+}
+
+/// Whatever byte of it is disturbed, a query is no command of its own: it is refused, or unknown.
+TEST_F(MarlinAtWork, AQueryWithAnotherFirstLetterIsNoKnownCommand) {
+    now += 1500ms;
+    conversation.tick(now);
+    std::string query = bytes_of(conversation);
+    for (const char letter : {'G', 'M', 'T'}) {
+        query[1] = letter;
+        EXPECT_GE(std::atol(query.c_str() + 2), 9990) << query;
+    }
 }
 
 TEST_F(MarlinAtWork, AStopGoesAheadOfEverythingAndSaysThatItMayWait) {
@@ -181,7 +196,7 @@ TEST_F(MarlinAtWork, ALostAnswerBesideTheJobIsFoundOutByTheQuery) {
     hear("ok\n");
     now += 1500ms;
     conversation.tick(now);
-    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(9999, "M105"));
     EXPECT_EQ(
         hear("Error:Line Number is not Last Line Number+1, Last Line: 10001\nResend: 10002\nok\n"),
         "M220\n");
@@ -204,7 +219,7 @@ TEST_F(MarlinWithoutReports, ALateTemperatureIsNotTakenForABoardThatWasReset) {
     EXPECT_EQ(hear("ok\n"), "M105\n");
     now += 1500ms;
     conversation.tick(now);
-    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(9999, "M105"));
     hear("ok T:200.0 /210.0\n");
     EXPECT_EQ(conversation.phase(), Phase::Running);
     EXPECT_EQ(
@@ -293,7 +308,7 @@ TEST_F(MarlinAtWork, ReportsAreAskedForWithNumbersAndSums) {
                 now);
     one.receive("ok\nok\n", now);
     const std::string said = bytes_of(one);
-    EXPECT_NE(said.find(numbered_line(2, "M155 S1") + numbered_line(3, "M154 S1")),
+    EXPECT_NE(said.find(numbered_line(9992, "M155 S1") + numbered_line(9993, "M154 S1")),
               std::string::npos)
         << said;
 }
@@ -302,7 +317,7 @@ TEST_F(MarlinAtWork, AKnownBoardIsOnlyAskedForItsLastLineAfterTheLinkWasLost) {
     hear("ok\n");
     conversation.lose_link(now);
     conversation.meet(Meeting::Again, now);
-    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(1, "M105"));
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(9999, "M105"));
     conversation.receive(
         "Error:Line Number is not Last Line Number+1, Last Line: 10002\nResend: 10003\nok\n", now);
     const Output out = conversation.take_output();

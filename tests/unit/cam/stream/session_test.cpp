@@ -53,6 +53,7 @@ struct MarlinRun {
         EXPECT_EQ(executed.count, lines);
         EXPECT_EQ(executed.changed, 0U) << executed.first_difference;
         EXPECT_EQ(executed.added, 0U) << executed.first_difference;
+        EXPECT_EQ(executed.lost, 0U) << executed.first_difference;
     }
 };
 
