@@ -18,7 +18,8 @@ void Grbl::reply(std::string_view line, Instant now) {
     if (reply.kind == Kind::Status) {
         on_status(reply, now);
     }
-    if (phase_ == Phase::Meeting) {
+    // Nothing of ours is on its way yet: answers are to lines of an earlier program.
+    if (phase_ == Phase::Meeting || phase_ == Phase::Ready || offers_homing_) {
         meeting_reply(reply, now);
         return;
     }

@@ -27,11 +27,14 @@ void Marlin::run(std::size_t first, Instant now) {
     if (phase_ != Phase::Ready) {
         return;
     }
-    acked_ = next_ = sent_ = first;
+    // What has left before the link was lost has left: the board may have it.
+    sent_ = std::max(sent_, first);
+    acked_ = next_ = first;
     phase_ = Phase::Running;
     window_ = 1;
     last_sign_ = last_send_ = poll_at_ = now;
     fill(now);
+    check_end(now);
 }
 
 void Marlin::lose_link(Instant /*now*/) {

@@ -10,6 +10,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr Instant kQuiet = 50ms;  ///< before the same is asked again
 constexpr Instant kLeastStepWait = 250ms;
 constexpr Instant kStepWait = 2s;  ///< for the answer to a line while meeting
 constexpr int kStepTries = 6;
@@ -26,6 +27,7 @@ void Marlin::meet(Meeting meeting, Instant now) {
     }
     splitter_.clear();
     query_pending_ = fault_pending_ = step_refused_ = false;
+    last_line_.reset();
     swallow_ok_ = 0;
     meeting_rounds_ = 0;
     hold_until_.reset();
@@ -143,11 +145,19 @@ void Marlin::meeting_reply(const MarlinReply& reply, Instant now) {
     } else if (reply.kind == Kind::Resend) {
         step_refused_ = true;
         if (reply.number && step_ == Step::Confirm) {
-            swallow_ok_ = 1;
-            confirmed(*reply.number, now);
+            // Believed when two say the same: the error and the request, or two requests.
+            const bool twice = last_line_ && *last_line_ + 1 == *reply.number;
+            last_line_ = *reply.number - 1;
+            if (twice) {
+                swallow_ok_ = 1;
+                confirmed(*reply.number, now);
+            } else {
+                step_until_ = now + kQuiet;
+            }
         }
     } else if (reply.kind == Kind::LineFault) {
         step_refused_ = true;
+        last_line_ = reply.number;
     } else if (reply.kind == Kind::Busy) {
         step_until_ = now + kStepWait;
     } else if (reply.kind == Kind::Ok && step_ != Step::Banner) {
@@ -186,6 +196,7 @@ void Marlin::confirmed(long next_number, Instant now) {
                  ", which is not of this job");
         return;
     }
+    last_line_.reset();
     phase_ = Phase::Ready;
     emit(Event::Kind::Ready, {}, has);
 }

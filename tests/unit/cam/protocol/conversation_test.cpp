@@ -313,6 +313,32 @@ TEST_F(MarlinAtWork, ReportsAreAskedForWithNumbersAndSums) {
         << said;
 }
 
+TEST_F(MarlinAtWork, ADisturbedLastLineIsAskedForOnceMore) {
+    hear("ok\n");
+    conversation.lose_link(now);
+    conversation.meet(Meeting::Again, now);
+    (void)conversation.take_output();
+    // The request says 10001, the error 10002: one of them was disturbed.
+    hear("Error:Line Number is not Last Line Number+1, Last Line: 10002\nResend: 10001\nok\n");
+    EXPECT_EQ(conversation.phase(), Phase::Meeting);
+    now += 60ms;
+    conversation.tick(now);
+    EXPECT_EQ(bytes_of(conversation), "\n" + numbered_line(9999, "M105"));
+    conversation.receive(
+        "Error:Line Number is not Last Line Number+1, Last Line: 10002\nResend: 10003\nok\n", now);
+    EXPECT_EQ(conversation.phase(), Phase::Ready);
+    EXPECT_EQ(conversation.take_output().events.back().line, 2);
+}
+
+TEST_F(MarlinAtWork, AJobWhoseLinesTheBoardHasAllIsFinishedWhenTheLinkIsBack) {
+    hear("ok\nok\n");
+    conversation.lose_link(now);
+    conversation.meet(Meeting::Again, now);
+    hear("Error:Line Number is not Last Line Number+1, Last Line: 10003\nResend: 10004\nok\n");
+    conversation.run(3, now);
+    EXPECT_EQ(conversation.phase(), Phase::Finished);
+}
+
 TEST_F(MarlinAtWork, AKnownBoardIsOnlyAskedForItsLastLineAfterTheLinkWasLost) {
     hear("ok\n");
     conversation.lose_link(now);
@@ -435,6 +461,13 @@ TEST_F(GrblAtWork, APositionThatDiffersAtASyncPointStops) {
     conversation.receive("<Idle|MPos:3.500,0,0|WCO:0,0,0>\n", now);
     EXPECT_EQ(conversation.take_output().urgent.front(), '!');
     EXPECT_EQ(conversation.phase(), Phase::Stopping);
+}
+
+TEST_F(GrblAtWork, AnswersToLinesOfAnEarlierProgramHoldNothing) {
+    Grbl conversation(job, options);
+    meet(conversation);
+    EXPECT_EQ(hear(conversation, "ok\nok\nerror:20\n", now), "");
+    EXPECT_EQ(conversation.phase(), Phase::Ready);
 }
 
 TEST_F(GrblAtWork, ALockedMachineIsHomedWhenTheOperatorWantsIt) {
