@@ -3,6 +3,7 @@
 // registers say anything.
 #include "cam/protocol/mailbox.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -61,8 +62,9 @@ std::string shaped(const std::string& request, const JobLines& job, Source& sour
                             : std::uint16_t{1};
         }
         for (unsigned changes = source.next() % 4; changes > 0 && count > 0; --changes) {
-            values[source.next() % count] =
-                static_cast<std::uint16_t>(source.next() << 8U | source.next());
+            std::uint16_t& changed = values[source.next() % count];
+            const unsigned high = source.next();
+            changed = static_cast<std::uint16_t>(high << 8U | source.next());
         }
         pdu.push_back(static_cast<char>(2 * count));
         for (const std::uint16_t value : values) {
@@ -93,7 +95,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         const std::uint8_t choice = source.next();
         if (choice % 8 == 7) {
-            const std::size_t length = std::min<std::size_t>(source.next(), source.bytes.size());
+            const std::size_t wanted = source.next();
+            const std::size_t length = std::min(wanted, source.bytes.size());
             conversation.receive(source.bytes.substr(0, length), now);
             source.bytes.remove_prefix(length);
         } else if (!out.bytes.empty()) {
