@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
 
 namespace decomp {
 
@@ -25,6 +26,8 @@ class Pose {
   public:
     Pose() : map_(Eigen::Isometry3d::Identity()) {}
 
+    // Of fixed size: moving it would be copying it.
+    // NOLINTNEXTLINE(modernize-pass-by-value)
     explicit Pose(const Eigen::Isometry3d& map) : map_(map) {}
 
     [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
@@ -42,9 +45,10 @@ class Pose {
     /// 16 numbers, row-major, as written in job.json.
     [[nodiscard]] std::array<double, 16> row_major() const {
         std::array<double, 16> out{};
+        std::size_t next = 0;
         for (int row = 0; row < 4; ++row) {
             for (int column = 0; column < 4; ++column) {
-                out.at(static_cast<size_t>(4 * row + column)) = map_.matrix()(row, column);
+                out.at(next++) = map_.matrix()(row, column);
             }
         }
         return out;
@@ -52,9 +56,10 @@ class Pose {
 
     [[nodiscard]] static Pose from_row_major(const std::array<double, 16>& values) {
         Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
+        std::size_t next = 0;
         for (int row = 0; row < 4; ++row) {
             for (int column = 0; column < 4; ++column) {
-                map.matrix()(row, column) = values.at(static_cast<size_t>(4 * row + column));
+                map.matrix()(row, column) = values.at(next++);
             }
         }
         return Pose(map);
