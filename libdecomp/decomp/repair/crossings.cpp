@@ -132,7 +132,7 @@ Result<bool> remove_crossings(Work& work) {
     }
     count = count.within > 0 ? count_crossings(work.mesh) : count;
     if (count.between > 0) {
-        const Result<bool> united = unite(work);
+        Result<bool> united = unite(work);
         if (!united || !*united) {
             return united;
         }

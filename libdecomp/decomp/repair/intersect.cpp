@@ -115,7 +115,7 @@ std::vector<Pair> self_intersections(const mesh::TriMesh& mesh, std::size_t at_m
     }
     const auto report = [&](const Box* a, const Box* b) {
         if (meet(a->info(), b->info())) {
-            pairs.push_back(std::minmax(a->info(), b->info()));
+            pairs.emplace_back(std::minmax(a->info(), b->info()));
             if (pairs.size() == at_most) {
                 throw Enough{};
             }

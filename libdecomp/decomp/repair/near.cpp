@@ -38,10 +38,34 @@ std::vector<double> reach_of_points(const mesh::TriMesh& mesh, double reach_mm) 
 }
 
 using Cell = std::tuple<long, long, long>;
+using Grid = std::map<Cell, std::vector<std::uint32_t>>;
 
 Cell cell_of(const Eigen::Vector3d& point, double size) {
     return {std::lround(std::floor(point.x() / size)), std::lround(std::floor(point.y() / size)),
             std::lround(std::floor(point.z() / size))};
+}
+
+/// The nearest point of the grid within its own reach and that of point i, from the cells around;
+/// i where there is none.
+std::uint32_t nearest_in_reach(const mesh::TriMesh& mesh, const std::vector<double>& reach,
+                               const Grid& grid, const Cell& cell, std::uint32_t i) {
+    const auto [x, y, z] = cell;
+    std::uint32_t target = i;
+    double nearest = reach[i];
+    for (long n = 0; n < 27; ++n) {
+        const auto found = grid.find({x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1});
+        if (found == grid.end()) {
+            continue;
+        }
+        for (const std::uint32_t other : found->second) {
+            const double distance = (mesh.points[other] - mesh.points[i]).norm();
+            if (distance <= std::min(nearest, reach[other])) {
+                nearest = distance;
+                target = other;
+            }
+        }
+    }
+    return target;
 }
 
 /// For each point the border point of lower index that it merges into, or itself.
@@ -49,28 +73,15 @@ std::vector<std::uint32_t> merge_targets(const mesh::TriMesh& mesh, double reach
     const std::vector<double> reach = reach_of_points(mesh, reach_mm);
     std::vector<std::uint32_t> target(mesh.points.size());
     std::iota(target.begin(), target.end(), 0U);
-    std::map<Cell, std::vector<std::uint32_t>> grid;
+    Grid grid;
     for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
         if (reach[i] == 0) {
             continue;
         }
-        const auto [x, y, z] = cell_of(mesh.points[i] - mesh.points[0], reach_mm);
-        double nearest = reach[i];
-        for (long n = 0; n < 27; ++n) {
-            const auto found = grid.find({x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1});
-            if (found == grid.end()) {
-                continue;
-            }
-            for (const std::uint32_t other : found->second) {
-                const double distance = (mesh.points[other] - mesh.points[i]).norm();
-                if (distance <= std::min(nearest, reach[other])) {
-                    nearest = distance;
-                    target[i] = other;
-                }
-            }
-        }
+        const Cell cell = cell_of(mesh.points[i] - mesh.points[0], reach_mm);
+        target[i] = nearest_in_reach(mesh, reach, grid, cell, i);
         if (target[i] == i) {
-            grid[{x, y, z}].push_back(i);
+            grid[cell].push_back(i);
         }
     }
     return target;

@@ -56,6 +56,61 @@ void compact_points(mesh::TriMesh& mesh) {
     }
 }
 
+/// Two triangles that share an edge with nobody else.
+struct Link {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    bool agree = false;  ///< they run along the edge in opposite senses
+};
+
+/// The links of triangle t are those from first[t] to first[t + 1].
+struct Links {
+    std::vector<Link> all;
+    std::vector<std::size_t> first;
+};
+
+Links links_of_triangles(const mesh::TriMesh& mesh) {
+    Links links;
+    const std::vector<Side> sides = sorted_sides(mesh);
+    for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
+        if (end - begin == 2) {
+            const Side& a = sides[begin];
+            const Side& b = sides[begin + 1];
+            links.all.push_back({a.triangle, b.triangle, a.forward != b.forward});
+            links.all.push_back({b.triangle, a.triangle, a.forward != b.forward});
+        }
+    });
+    std::sort(links.all.begin(), links.all.end(), [](const Link& l, const Link& r) {
+        return std::tie(l.from, l.to) < std::tie(r.from, r.to);
+    });
+    links.first.assign(mesh.triangles.size() + 1, 0);
+    for (const Link& link : links.all) {
+        ++links.first[link.from + 1];
+    }
+    std::partial_sum(links.first.begin(), links.first.end(), links.first.begin());
+    return links;
+}
+
+enum class Sense : std::uint8_t { Unknown, Keep, Turn };
+
+/// Spreads the sense of a seed over all triangles that are linked with it, and lists these.
+void spread_sense(const Links& links, std::uint32_t seed, std::vector<Sense>& sense,
+                  std::vector<std::uint32_t>& reached) {
+    sense[seed] = Sense::Keep;
+    reached.assign(1, seed);
+    for (std::size_t head = 0; head < reached.size(); ++head) {
+        const std::uint32_t triangle = reached[head];
+        for (std::size_t l = links.first[triangle]; l < links.first[triangle + 1]; ++l) {
+            const Link& link = links.all[l];
+            if (sense[link.to] == Sense::Unknown) {
+                const bool keep = (sense[triangle] == Sense::Keep) == link.agree;
+                sense[link.to] = keep ? Sense::Keep : Sense::Turn;
+                reached.push_back(link.to);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> first_of_equal_points(const mesh::TriMesh& mesh) {
@@ -141,56 +196,19 @@ DroppedDuplicates drop_duplicates(mesh::TriMesh& mesh) {
 }
 
 std::size_t orient_consistently(mesh::TriMesh& mesh) {
-    const std::size_t count = mesh.triangles.size();
-
-    struct Link {
-        std::uint32_t from = 0;
-        std::uint32_t to = 0;
-        bool agree = false;
-    };
-
-    std::vector<Link> links;
-    const std::vector<Side> sides = sorted_sides(mesh);
-    for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
-        if (end - begin == 2) {
-            const Side& a = sides[begin];
-            const Side& b = sides[begin + 1];
-            links.push_back({a.triangle, b.triangle, a.forward != b.forward});
-            links.push_back({b.triangle, a.triangle, a.forward != b.forward});
-        }
-    });
-    std::sort(links.begin(), links.end(), [](const Link& l, const Link& r) {
-        return std::tie(l.from, l.to) < std::tie(r.from, r.to);
-    });
-    std::vector<std::size_t> first_link(count + 1, 0);
-    for (const Link& link : links) {
-        ++first_link[link.from + 1];
-    }
-    std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
-    enum class Sense : std::uint8_t { Unknown, Keep, Turn };
-    std::vector<Sense> sense(count, Sense::Unknown);
+    const Links links = links_of_triangles(mesh);
+    std::vector<Sense> sense(mesh.triangles.size(), Sense::Unknown);
     std::size_t turned = 0;
-    std::vector<std::uint32_t> queue;
-    for (std::uint32_t seed = 0; seed < count; ++seed) {
+    std::vector<std::uint32_t> reached;
+    for (std::uint32_t seed = 0; seed < sense.size(); ++seed) {
         if (sense[seed] != Sense::Unknown) {
             continue;
         }
-        sense[seed] = Sense::Keep;
-        queue.assign(1, seed);
-        std::size_t to_turn = 0;
-        for (std::size_t head = 0; head < queue.size(); ++head) {
-            const std::uint32_t triangle = queue[head];
-            to_turn += sense[triangle] == Sense::Turn ? 1U : 0U;
-            for (std::size_t l = first_link[triangle]; l < first_link[triangle + 1]; ++l) {
-                if (sense[links[l].to] == Sense::Unknown) {
-                    const bool keep = (sense[triangle] == Sense::Keep) == links[l].agree;
-                    sense[links[l].to] = keep ? Sense::Keep : Sense::Turn;
-                    queue.push_back(links[l].to);
-                }
-            }
-        }
-        const Sense minority = 2 * to_turn > queue.size() ? Sense::Keep : Sense::Turn;
-        for (const std::uint32_t triangle : queue) {
+        spread_sense(links, seed, sense, reached);
+        const auto to_turn = static_cast<std::size_t>(std::count_if(
+            reached.begin(), reached.end(), [&](auto t) { return sense[t] == Sense::Turn; }));
+        const Sense minority = 2 * to_turn > reached.size() ? Sense::Keep : Sense::Turn;
+        for (const std::uint32_t triangle : reached) {
             if (sense[triangle] == minority) {
                 std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
                 ++turned;

@@ -101,7 +101,7 @@ std::size_t split_points(mesh::TriMesh& mesh) {
             point_of[umbrella] = point;
             if (taken[point]) {
                 point_of[umbrella] = static_cast<std::uint32_t>(mesh.points.size());
-                mesh.points.push_back(Eigen::Vector3d(mesh.points[point]));
+                mesh.points.push_back(mesh.points[point]);
                 taken.push_back(true);
                 ++added;
             }
@@ -127,7 +127,8 @@ std::size_t halve_crowded_edges(mesh::TriMesh& mesh) {
             return;
         }
         const auto middle = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back((mesh.points[sides[begin].low] + mesh.points[sides[begin].high]) / 2);
+        mesh.points.emplace_back((mesh.points[sides[begin].low] + mesh.points[sides[begin].high]) /
+                                 2);
         for (std::size_t i = begin; i < end; ++i) {
             busy[sides[i].triangle] = true;
             mesh::Triangle second = mesh.triangles[sides[i].triangle];
