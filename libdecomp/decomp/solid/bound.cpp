@@ -136,6 +136,7 @@ class Walker {
             chain.push_back(n);
         }
         std::vector<Eigen::Vector3d> path;
+        path.reserve(chain.size() + 1);
         for (const std::uint32_t h : chain) {
             path.push_back(settled_.points[start_of(mesh_, h)]);
         }
@@ -277,48 +278,65 @@ class Walker {
         }
     }
 
-    void make_shells() {
-        std::vector<std::int32_t> shell_of(faces_.region.size(), -1);
-        std::vector<std::int32_t> of_triangle(mesh_.triangles.size(), -1);
+    /// The shells by their triangles.
+    struct Shells {
+        std::vector<std::int32_t> of_triangle;
+        std::vector<std::int32_t> of_face;
         std::vector<double> volume;
-        std::vector<std::uint32_t> first;
+        std::vector<std::uint32_t> first;  ///< triangle of each
+    };
+
+    void make_shells() {
+        Shells shells;
+        shells.of_triangle.assign(mesh_.triangles.size(), -1);
+        shells.of_face.assign(faces_.region.size(), -1);
         for (std::uint32_t seed = 0; seed < mesh_.triangles.size(); ++seed) {
-            if (of_triangle[seed] >= 0) {
-                continue;
+            if (shells.of_triangle[seed] < 0) {
+                flood_shell(seed, shells);
             }
-            const auto shell = static_cast<std::int32_t>(out_.solid.shells.size());
-            out_.solid.shells.emplace_back();
-            volume.push_back(0);
-            first.push_back(seed);
-            std::vector<std::uint32_t> found{seed};
-            of_triangle[seed] = shell;
-            for (std::size_t i = 0; i < found.size(); ++i) {
-                const std::uint32_t t = found[i];
-                const mesh::Triangle& c = mesh_.triangles[t];
-                volume.back() +=
-                    mesh_.points[c[0]].dot(mesh_.points[c[1]].cross(mesh_.points[c[2]])) / 6;
-                auto& owner = shell_of[static_cast<std::size_t>(faces_.of[t])];
-                if (owner < 0) {
-                    owner = shell;
-                    out_.solid.shells.back().push_back(faces_.of[t]);
-                }
-                for (std::uint32_t k = 0; k < 3; ++k) {
-                    const std::uint32_t other = adjacency_.twin[3 * t + k] / 3;
-                    if (of_triangle[other] < 0) {
-                        of_triangle[other] = shell;
-                        found.push_back(other);
-                    }
-                }
-            }
-            std::sort(out_.solid.shells.back().begin(), out_.solid.shells.back().end());
         }
+        nest_cavities(shells);
+    }
+
+    /// The shell of all triangles that are connected with this one.
+    void flood_shell(std::uint32_t seed, Shells& shells) {
+        const auto shell = static_cast<std::int32_t>(out_.solid.shells.size());
+        std::vector<std::int32_t>& faces = out_.solid.shells.emplace_back();
+        double volume = 0;
+        std::vector<std::uint32_t> found{seed};
+        shells.of_triangle[seed] = shell;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const std::uint32_t t = found[i];
+            const mesh::Triangle& c = mesh_.triangles[t];
+            volume += mesh_.points[c[0]].dot(mesh_.points[c[1]].cross(mesh_.points[c[2]])) / 6;
+            auto& owner = shells.of_face[static_cast<std::size_t>(faces_.of[t])];
+            if (owner < 0) {
+                owner = shell;
+                faces.push_back(faces_.of[t]);
+            }
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t other = adjacency_.twin[3 * t + k] / 3;
+                if (shells.of_triangle[other] < 0) {
+                    shells.of_triangle[other] = shell;
+                    found.push_back(other);
+                }
+            }
+        }
+        std::sort(faces.begin(), faces.end());
+        shells.volume.push_back(volume);
+        shells.first.push_back(seed);
+    }
+
+    /// A shell turned inside out is a cavity of the smallest shell that winds round it.
+    void nest_cavities(const Shells& shells) {
+        const std::vector<double>& volume = shells.volume;
         out_.solid.cavity_of.assign(volume.size(), -1);
         for (std::size_t inner = 0; inner < volume.size(); ++inner) {
             double smallest = INFINITY;
             for (std::size_t outer = 0; volume[inner] < 0 && outer < volume.size(); ++outer) {
                 if (volume[outer] > 0 && volume[outer] < smallest &&
-                    winds_round(static_cast<std::int32_t>(outer), of_triangle,
-                                mesh_.points[mesh_.triangles[first[inner]][0]])) {
+                    winds_round(static_cast<std::int32_t>(outer), shells.of_triangle,
+                                mesh_.points[mesh_.triangles[shells.first[inner]][0]])) {
                     smallest = volume[outer];
                     out_.solid.cavity_of[inner] = static_cast<std::int32_t>(outer);
                 }

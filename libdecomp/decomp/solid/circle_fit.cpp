@@ -28,7 +28,7 @@ std::optional<CircleFit> circle_through(const Eigen::Vector2d& a, const Eigen::V
     return CircleFit{a + from_a, from_a.norm()};
 }
 
-CircleFit fit_circle(const std::vector<Eigen::Vector2d>& points, CircleFit start,
+CircleFit fit_circle(const std::vector<Eigen::Vector2d>& points, const CircleFit& start,
                      const std::vector<TangentLine>& touched) {
     constexpr int kRounds = 20;
     CircleFit circle = start;

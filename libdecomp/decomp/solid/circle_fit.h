@@ -27,7 +27,8 @@ struct TangentLine {
 
 /// The circle of least squared distances, by Gauss-Newton from `start`, among those that touch
 /// these lines (two at most, and not one line twice). At least three points.
-[[nodiscard]] CircleFit fit_circle(const std::vector<Eigen::Vector2d>& points, CircleFit start,
+[[nodiscard]] CircleFit fit_circle(const std::vector<Eigen::Vector2d>& points,
+                                   const CircleFit& start,
                                    const std::vector<TangentLine>& touched = {});
 
 }  // namespace decomp::solid

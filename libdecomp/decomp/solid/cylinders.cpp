@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -136,6 +137,7 @@ class CylinderFinder {
             }
         }
         std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+        order.reserve(pairs.size());
         for (const auto& [pair, area] : pairs) {
             order.push_back(pair);
         }
@@ -155,8 +157,8 @@ class CylinderFinder {
         std::uint32_t f, const Across& across) const {
         const Facet& facet = facets_[f];
         const Eigen::Vector3d along = facet.normal.cross(across.axis).normalized();
-        double low = INFINITY;
-        double high = -INFINITY;
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
         for (const std::uint32_t p : facet.points) {
             low = std::min(low, along.dot(mesh_.points[p]));
             high = std::max(high, along.dot(mesh_.points[p]));
@@ -266,6 +268,21 @@ class CylinderFinder {
         });
     }
 
+    /// Calls visit for every halfedge of the triangles of a facet.
+    template <class Visit>
+    void for_each_halfedge(std::uint32_t f, const Visit& visit) const {
+        for (const std::uint32_t t : facets_[f].triangles) {
+            for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+                visit(h);
+            }
+        }
+    }
+
+    /// The facet on the other side of a halfedge.
+    [[nodiscard]] std::uint32_t facet_across(std::uint32_t h) const {
+        return facet_of_[adjacency_.twin[h] / 3];
+    }
+
     [[nodiscard]] std::vector<std::uint32_t> gather(const Guess& guess, std::uint32_t seed) {
         const Across across(guess.axis);
         std::vector<std::uint32_t> found;
@@ -276,15 +293,13 @@ class CylinderFinder {
         found.push_back(seed);
         mark_[seed] = stamp_;
         for (std::size_t i = 0; i < found.size(); ++i) {
-            for (const std::uint32_t t : facets_[found[i]].triangles) {
-                for (std::uint32_t k = 0; k < 3; ++k) {
-                    const std::uint32_t g = facet_of_[adjacency_.twin[3 * t + k] / 3];
-                    if (mark_[g] != stamp_ && usable(g) && chords(g, guess, across)) {
-                        mark_[g] = stamp_;
-                        found.push_back(g);
-                    }
+            for_each_halfedge(found[i], [&](std::uint32_t h) {
+                const std::uint32_t g = facet_across(h);
+                if (mark_[g] != stamp_ && usable(g) && chords(g, guess, across)) {
+                    mark_[g] = stamp_;
+                    found.push_back(g);
                 }
-            }
+            });
         }
         return found;
     }
@@ -325,23 +340,25 @@ class CylinderFinder {
         return direction.dot(axis) < 0 ? Eigen::Vector3d(-direction) : direction;
     }
 
+    /// A flat region that is neither among the facets gathered nor part of a cylinder.
+    [[nodiscard]] bool is_flat_outside(std::uint32_t g) const {
+        return g < flat_count_ && mark_[g] != stamp_ && !taken_[g];
+    }
+
     /// Flat neighbours across an edge that runs along the axis, largest first.
     [[nodiscard]] std::vector<std::uint32_t> flanks_of(const std::vector<std::uint32_t>& found,
                                                        const Eigen::Vector3d& axis) const {
         std::vector<std::uint32_t> flanks;
         for (const std::uint32_t f : found) {
-            for (const std::uint32_t t : facets_[f].triangles) {
-                for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-                    const std::uint32_t g = facet_of_[adjacency_.twin[h] / 3];
-                    const Eigen::Vector3d way =
-                        mesh_.points[end_of(mesh_, h)] - mesh_.points[start_of(mesh_, h)];
-                    if (g < flat_count_ && mark_[g] != stamp_ && !taken_[g] &&
-                        way.cross(axis).norm() < kAlmost * way.norm() &&
-                        std::abs(facets_[g].normal.dot(axis)) < kAlmost) {
-                        flanks.push_back(g);
-                    }
+            for_each_halfedge(f, [&](std::uint32_t h) {
+                const std::uint32_t g = facet_across(h);
+                const Eigen::Vector3d way =
+                    mesh_.points[end_of(mesh_, h)] - mesh_.points[start_of(mesh_, h)];
+                if (is_flat_outside(g) && way.cross(axis).norm() < kAlmost * way.norm() &&
+                    std::abs(facets_[g].normal.dot(axis)) < kAlmost) {
+                    flanks.push_back(g);
                 }
-            }
+            });
         }
         return by_area(std::move(flanks));
     }
@@ -391,14 +408,11 @@ class CylinderFinder {
         const std::vector<std::uint32_t>& found) const {
         std::vector<std::uint32_t> around;
         for (const std::uint32_t f : found) {
-            for (const std::uint32_t t : facets_[f].triangles) {
-                for (std::uint32_t k = 0; k < 3; ++k) {
-                    const std::uint32_t g = facet_of_[adjacency_.twin[3 * t + k] / 3];
-                    if (g < flat_count_ && mark_[g] != stamp_ && !taken_[g]) {
-                        around.push_back(g);
-                    }
+            for_each_halfedge(f, [&](std::uint32_t h) {
+                if (const std::uint32_t g = facet_across(h); is_flat_outside(g)) {
+                    around.push_back(g);
                 }
-            }
+            });
         }
         return by_area(std::move(around));
     }

@@ -78,7 +78,7 @@ std::optional<BoundedCurve> arc_along(EllipseCurve curve, const std::vector<Eige
 /// Along the axis of a cylinder, where a plane or another cylinder touches or cuts it.
 std::optional<BoundedCurve> generator_along(const Eigen::Vector3d& axis,
                                             const std::vector<Eigen::Vector3d>& path, bool closed) {
-    const auto line = closed ? std::nullopt : line_along(path);
+    auto line = closed ? std::nullopt : line_along(path);
     if (!line ||
         std::get<LineCurve>(line->curve).direction.cross(axis).norm() * line->t1 > kOnCurveMm) {
         return std::nullopt;

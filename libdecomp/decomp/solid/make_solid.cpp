@@ -37,22 +37,31 @@ void give_way(const std::vector<std::int32_t>& refused, Regions& regions) {
     }
 }
 
+/// Does every edge of the loop begin where the one before it ends?
+bool is_closed(const Solid& solid, const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const EdgeUse& use = loop[i];
+        const EdgeUse& next = loop[(i + 1) % loop.size()];
+        const Edge& here = solid.edges[static_cast<std::size_t>(use.edge)];
+        const Edge& then = solid.edges[static_cast<std::size_t>(next.edge)];
+        if ((use.reversed ? here.from : here.to) != (next.reversed ? then.to : then.from)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Every edge once either way, every loop closed.
 Status check(const Solid& solid) {
     std::vector<int> forward(solid.edges.size(), 0);
     std::vector<int> backward(solid.edges.size(), 0);
     for (const Face& face : solid.faces) {
         for (const Loop& loop : face.loops) {
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                const auto e = static_cast<std::size_t>(loop[i].edge);
-                ++(loop[i].reversed ? backward : forward)[e];
-                const EdgeUse& next = loop[(i + 1) % loop.size()];
-                const Edge& here = solid.edges[e];
-                const Edge& then = solid.edges[static_cast<std::size_t>(next.edge)];
-                if ((loop[i].reversed ? here.from : here.to) !=
-                    (next.reversed ? then.to : then.from)) {
-                    return fail("solid.unsound", "a loop of a face is not closed");
-                }
+            for (const EdgeUse& use : loop) {
+                ++(use.reversed ? backward : forward)[static_cast<std::size_t>(use.edge)];
+            }
+            if (!is_closed(solid, loop)) {
+                return fail("solid.unsound", "a loop of a face is not closed");
             }
         }
     }
@@ -63,6 +72,19 @@ Status check(const Solid& solid) {
         }
     }
     return {};
+}
+
+/// What is flat depends on the digits that the coordinates have.
+RegionOptions region_options(const mesh::TriMesh& mesh, const SolidOptions& options) {
+    const double reach_mm = mesh::bounds(mesh)
+                                .min()
+                                .cwiseAbs()
+                                .cwiseMax(mesh::bounds(mesh).max().cwiseAbs())
+                                .maxCoeff();
+    return {.planar_mm = std::min(options.tolerance_mm / 4,
+                                  std::max(kLeastPlanarMm, kFileDigits * reach_mm)),
+            .tolerance_mm = options.tolerance_mm,
+            .flat = options.detail != Detail::CutsAlone};
 }
 
 Regions recognise(const part::Part& part, const Adjacency& adjacency, const RegionOptions& options,
@@ -121,6 +143,42 @@ Result<Fitted> fit(const part::Part& part, const Adjacency& adjacency, Regions& 
     return Fitted{};
 }
 
+/// Is it a sound solid of no more faces than wanted?
+Status check_wanted(const Solid& solid, const SolidOptions& options, const std::string& part) {
+    if (solid.faces.empty()) {
+        return fail("solid.unsound", "the faces of the part cannot be made to meet", part,
+                    "repair the part, or export it as STL");
+    }
+    if (solid.faces.size() > options.max_faces && !options.force) {
+        return fail("solid.too_many_faces",
+                    "the solid needs " + std::to_string(solid.faces.size()) +
+                        " faces to stay within " + decimal(options.tolerance_mm, 4) +
+                        " mm, more than " + std::to_string(options.max_faces) +
+                        ": CAD programs take minutes for it",
+                    part, "allow a larger deviation with --step-tol, or add --step-many");
+    }
+    return check(solid);
+}
+
+/// Counts the surfaces of the regions that triangles still belong to.
+void report_surfaces(const Regions& regions, SolidReport& report) {
+    std::vector<bool> used(regions.all.size(), false);
+    for (const std::int32_t r : regions.of) {
+        if (r >= 0) {
+            used[static_cast<std::size_t>(r)] = true;
+        }
+    }
+    for (std::size_t r = 0; r < used.size(); ++r) {
+        if (used[r]) {
+            const Region& region = regions.all[r];
+            report.planes += std::holds_alternative<PlaneSurface>(region.surface) ? 1U : 0U;
+            report.cylinders += std::holds_alternative<CylinderSurface>(region.surface) ? 1U : 0U;
+            report.cones += std::holds_alternative<ConeSurface>(region.surface) ? 1U : 0U;
+            report.sagitta_mm = std::max(report.sagitta_mm, region.sagitta_mm);
+        }
+    }
+}
+
 }  // namespace
 
 Result<MadeSolid> make_solid(const part::Part& input, const SolidOptions& options, const Run& run) {
@@ -130,17 +188,8 @@ Result<MadeSolid> make_solid(const part::Part& input, const SolidOptions& option
     if (!adjacency) {
         return fail(adjacency.error());
     }
-    const double reach_mm = mesh::bounds(part.mesh)
-                                .min()
-                                .cwiseAbs()
-                                .cwiseMax(mesh::bounds(part.mesh).max().cwiseAbs())
-                                .maxCoeff();
-    const RegionOptions region_options{
-        .planar_mm =
-            std::min(options.tolerance_mm / 4, std::max(kLeastPlanarMm, kFileDigits * reach_mm)),
-        .tolerance_mm = options.tolerance_mm,
-        .flat = options.detail != Detail::CutsAlone};
-    Regions regions = recognise(part, *adjacency, region_options, options.detail);
+    const RegionOptions flatness = region_options(part.mesh, options);
+    Regions regions = recognise(part, *adjacency, flatness, options.detail);
     made.report.triangles = part.mesh.triangles.size();
     for (int round = 0; round < kMostRounds; ++round) {
         auto fitted = fit(part, *adjacency, regions, options, run);
@@ -173,42 +222,15 @@ Result<MadeSolid> make_solid(const part::Part& input, const SolidOptions& option
             return fail(adjacency.error());
         }
         // What was curved has kept its triangles; what was joined is not asked again whether it is.
-        Regions after = find_planes(part, *adjacency, region_options);
+        Regions after = find_planes(part, *adjacency, flatness);
         carry_curved(regions, decimated->region_of, after);
         regions = std::move(after);
     }
-    if (made.solid.faces.empty()) {
-        return fail("solid.unsound", "the faces of the part cannot be made to meet", part.id,
-                    "repair the part, or export it as STL");
-    }
-    if (made.solid.faces.size() > options.max_faces && !options.force) {
-        return fail("solid.too_many_faces",
-                    "the solid needs " + std::to_string(made.solid.faces.size()) +
-                        " faces to stay within " + decimal(options.tolerance_mm, 4) +
-                        " mm, more than " + std::to_string(options.max_faces) +
-                        ": CAD programs take minutes for it",
-                    part.id, "allow a larger deviation with --step-tol, or add --step-many");
-    }
-    if (const Status sound = check(made.solid); !sound) {
+    if (const Status sound = check_wanted(made.solid, options, part.id); !sound) {
         return fail(sound.error());
     }
     made.report.faces = made.solid.faces.size();
-    std::vector<bool> used(regions.all.size(), false);
-    for (const std::int32_t r : regions.of) {
-        if (r >= 0) {
-            used[static_cast<std::size_t>(r)] = true;
-        }
-    }
-    for (std::size_t r = 0; r < used.size(); ++r) {
-        if (used[r]) {
-            const Region& region = regions.all[r];
-            made.report.planes += std::holds_alternative<PlaneSurface>(region.surface) ? 1U : 0U;
-            made.report.cylinders +=
-                std::holds_alternative<CylinderSurface>(region.surface) ? 1U : 0U;
-            made.report.cones += std::holds_alternative<ConeSurface>(region.surface) ? 1U : 0U;
-            made.report.sagitta_mm = std::max(made.report.sagitta_mm, region.sagitta_mm);
-        }
-    }
+    report_surfaces(regions, made.report);
     return made;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace decomp::solid {
@@ -43,8 +44,8 @@ class PlaneFinder {
         }
         PlaneSurface plane;
         plane.normal = snapped(normal.normalized());
-        double lowest = INFINITY;
-        double highest = -INFINITY;
+        double lowest = std::numeric_limits<double>::infinity();
+        double highest = -lowest;
         for (const std::uint32_t t : triangles) {
             for (const std::uint32_t corner : mesh_.triangles[t]) {
                 const double height = plane.normal.dot(mesh_.points[corner]);

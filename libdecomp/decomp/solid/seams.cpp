@@ -53,6 +53,19 @@ bool is_clear(const Surface& surface, const std::vector<Path>& walk, const std::
     return true;
 }
 
+/// Lets a loop that uses an edge use the new half after it too.
+void insert_half(Loop& loop, std::int32_t number, std::int32_t added) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (loop[i].edge != number) {
+            continue;
+        }
+        const bool reversed = loop[i].reversed;
+        const auto at = loop.begin() + static_cast<std::ptrdiff_t>(i);
+        loop.insert(reversed ? at : at + 1, EdgeUse{added, reversed});
+        ++i;
+    }
+}
+
 /// Cuts an edge in two at parameter t, everywhere it is used.
 void split_edge(Solid& solid, std::int32_t number, std::int32_t vertex, double t) {
     const auto added = static_cast<std::int32_t>(solid.edges.size());
@@ -63,15 +76,7 @@ void split_edge(Solid& solid, std::int32_t number, std::int32_t vertex, double t
     solid.edges[static_cast<std::size_t>(number)].t1 = t;
     for (Face& face : solid.faces) {
         for (Loop& loop : face.loops) {
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                if (loop[i].edge != number) {
-                    continue;
-                }
-                const bool reversed = loop[i].reversed;
-                const auto at = loop.begin() + static_cast<std::ptrdiff_t>(i);
-                loop.insert(reversed ? at : at + 1, EdgeUse{added, reversed});
-                ++i;
-            }
+            insert_half(loop, number, added);
         }
     }
 }

@@ -17,6 +17,107 @@ constexpr double kExact = 1e-13;        ///< of the coordinates
 constexpr double kOneDirection = 1e-4;  ///< between normals of surfaces that touch
 constexpr int kRounds = 12;
 
+/// For each corner the regions that meet there, sorted.
+std::vector<std::vector<std::int32_t>> regions_at_corners(const mesh::TriMesh& mesh,
+                                                          const Regions& regions,
+                                                          const FaceMap& faces) {
+    std::vector<std::vector<std::int32_t>> meeting(mesh.points.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::int32_t region = regions.of[t];
+        for (const std::uint32_t p : mesh.triangles[t]) {
+            if (region >= 0 && faces.corner[p] &&
+                std::find(meeting[p].begin(), meeting[p].end(), region) == meeting[p].end()) {
+                meeting[p].push_back(region);
+            }
+        }
+    }
+    for (std::vector<std::int32_t>& own : meeting) {
+        std::sort(own.begin(), own.end());
+    }
+    return meeting;
+}
+
+/// The regions of one corner.
+class Meeting {
+  public:
+    Meeting(const Regions& regions, const std::vector<std::int32_t>& own)
+        : regions_(regions), own_(own) {}
+
+    struct Point {
+        Eigen::Vector3d at;
+        double off = 0;  ///< the largest distance from a surface
+    };
+
+    /// Where the surfaces meet, by Gauss-Newton: each step is the shortest that their tangent
+    /// planes ask for.
+    [[nodiscard]] Point common_point(const Eigen::Vector3d& start) const {
+        const auto count = static_cast<Eigen::Index>(own_.size());
+        Point found{start};
+        for (int round = 0; round < kRounds; ++round) {
+            Eigen::MatrixXd gradients(count, 3);
+            Eigen::VectorXd residuals(count);
+            for (Eigen::Index i = 0; i < count; ++i) {
+                const Surface& surface = region(own_[static_cast<std::size_t>(i)]).surface;
+                gradients.row(i) = normal_at(surface, found.at).transpose();
+                residuals[i] = distance_mm(surface, found.at);
+            }
+            found.off = residuals.cwiseAbs().maxCoeff();
+            if (found.off <= kExact * (1 + found.at.cwiseAbs().maxCoeff())) {
+                break;
+            }
+            Eigen::JacobiSVD<Eigen::MatrixXd> svd(gradients,
+                                                  Eigen::ComputeThinU | Eigen::ComputeThinV);
+            svd.setThreshold(kOneDirection);
+            found.at -= svd.solve(residuals);
+        }
+        return found;
+    }
+
+    /// How far the corner may move: triangles stay behind a curved surface by its sagitta.
+    [[nodiscard]] double allowed_mm(double tolerance_mm) const {
+        double allowed_mm = tolerance_mm;
+        for (const std::int32_t r : own_) {
+            allowed_mm = std::max(allowed_mm, 1.01 * region(r).sagitta_mm);
+        }
+        return allowed_mm;
+    }
+
+    [[nodiscard]] std::int32_t smallest() const {
+        return *std::min_element(own_.begin(), own_.end(), [&](std::int32_t a, std::int32_t b) {
+            return region(a).area_mm2 < region(b).area_mm2;
+        });
+    }
+
+  private:
+    [[nodiscard]] const Region& region(std::int32_t r) const {
+        return regions_.all[static_cast<std::size_t>(r)];
+    }
+
+    const Regions& regions_;
+    const std::vector<std::int32_t>& own_;
+};
+
+/// Of each face: its region's surface, or the plane through a triangle alone.
+std::vector<Surface> surfaces_of_faces(const mesh::TriMesh& mesh, const Regions& regions,
+                                       const FaceMap& faces,
+                                       const std::vector<Eigen::Vector3d>& points) {
+    std::vector<Surface> surfaces;
+    surfaces.reserve(faces.region.size());
+    for (std::size_t f = 0; f < faces.region.size(); ++f) {
+        if (faces.region[f] >= 0) {
+            surfaces.push_back(regions.all[static_cast<std::size_t>(faces.region[f])].surface);
+            continue;
+        }
+        const mesh::Triangle& t = mesh.triangles[faces.triangle[f]];
+        const Eigen::Vector3d& a = points[t[0]];
+        PlaneSurface plane;
+        plane.normal = (points[t[1]] - a).cross(points[t[2]] - a).normalized();
+        plane.offset_mm = plane.normal.dot((a + points[t[1]] + points[t[2]]) / 3);
+        surfaces.emplace_back(plane);
+    }
+    return surfaces;
+}
+
 }  // namespace
 
 FaceMap map_faces(const mesh::TriMesh& mesh, const Adjacency& adjacency, const Regions& regions) {
@@ -66,82 +167,29 @@ Settled settle(const mesh::TriMesh& mesh, const Regions& regions, const FaceMap&
                double tolerance_mm) {
     Settled settled;
     settled.points = mesh.points;
-    std::vector<std::vector<std::int32_t>> meeting(mesh.points.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::int32_t region = regions.of[t];
-        for (const std::uint32_t p : mesh.triangles[t]) {
-            if (region >= 0 && faces.corner[p] &&
-                std::find(meeting[p].begin(), meeting[p].end(), region) == meeting[p].end()) {
-                meeting[p].push_back(region);
-            }
-        }
-    }
+    const auto meeting = regions_at_corners(mesh, regions, faces);
     std::vector<bool> refused(regions.all.size(), false);
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-        auto& own = meeting[p];
-        if (own.empty()) {
+        if (meeting[p].empty()) {
             continue;
         }
-        std::sort(own.begin(), own.end());
-        double allowed_mm = tolerance_mm;
-        for (const std::int32_t r : own) {
-            allowed_mm =
-                std::max(allowed_mm, 1.01 * regions.all[static_cast<std::size_t>(r)].sagitta_mm);
-        }
-        const auto count = static_cast<Eigen::Index>(own.size());
-        Eigen::Vector3d at = mesh.points[p];
-        double off = 0;
-        for (int round = 0; round < kRounds; ++round) {
-            Eigen::MatrixXd gradients(count, 3);
-            Eigen::VectorXd residuals(count);
-            for (Eigen::Index i = 0; i < count; ++i) {
-                const Surface& surface =
-                    regions.all[static_cast<std::size_t>(own[static_cast<std::size_t>(i)])].surface;
-                gradients.row(i) = normal_at(surface, at).transpose();
-                residuals[i] = distance_mm(surface, at);
-            }
-            off = residuals.cwiseAbs().maxCoeff();
-            if (off <= kExact * (1 + at.cwiseAbs().maxCoeff())) {
-                break;
-            }
-            Eigen::JacobiSVD<Eigen::MatrixXd> svd(gradients,
-                                                  Eigen::ComputeThinU | Eigen::ComputeThinV);
-            svd.setThreshold(kOneDirection);
-            at -= svd.solve(residuals);
-        }
-        const double moved = (at - mesh.points[p]).norm();
-        if (!(off <= kOffMm) || !(moved <= allowed_mm)) {
-            // The smallest of those that meet gives way.
-            const auto smallest =
-                std::min_element(own.begin(), own.end(), [&](std::int32_t a, std::int32_t b) {
-                    return regions.all[static_cast<std::size_t>(a)].area_mm2 <
-                           regions.all[static_cast<std::size_t>(b)].area_mm2;
-                });
-            refused[static_cast<std::size_t>(*smallest)] = true;
+        const Meeting corner(regions, meeting[p]);
+        const Meeting::Point found = corner.common_point(mesh.points[p]);
+        const double moved = (found.at - mesh.points[p]).norm();
+        if (!(found.off <= kOffMm) || !(moved <= corner.allowed_mm(tolerance_mm))) {
+            refused[static_cast<std::size_t>(corner.smallest())] = true;
             continue;
         }
-        settled.points[p] = at;
+        settled.points[p] = found.at;
         settled.farthest_mm = std::max(settled.farthest_mm, moved);
-        settled.off_mm = std::max(settled.off_mm, off);
+        settled.off_mm = std::max(settled.off_mm, found.off);
     }
     for (std::size_t r = 0; r < refused.size(); ++r) {
         if (refused[r]) {
             settled.refused.push_back(static_cast<std::int32_t>(r));
         }
     }
-    for (std::size_t f = 0; f < faces.region.size(); ++f) {
-        if (faces.region[f] >= 0) {
-            settled.surfaces.push_back(
-                regions.all[static_cast<std::size_t>(faces.region[f])].surface);
-            continue;
-        }
-        const mesh::Triangle& t = mesh.triangles[faces.triangle[f]];
-        const Eigen::Vector3d& a = settled.points[t[0]];
-        PlaneSurface plane;
-        plane.normal = (settled.points[t[1]] - a).cross(settled.points[t[2]] - a).normalized();
-        plane.offset_mm = plane.normal.dot((a + settled.points[t[1]] + settled.points[t[2]]) / 3);
-        settled.surfaces.emplace_back(plane);
-    }
+    settled.surfaces = surfaces_of_faces(mesh, regions, faces, settled.points);
     return settled;
 }
 
