@@ -169,9 +169,7 @@ class Rewriter {
                 continue;
             }
             entity.number = ++next;
-            for (auto r = entity.references.rbegin(); r != entity.references.rend(); ++r) {
-                open.push_back(*r);
-            }
+            open.insert(open.end(), entity.references.rbegin(), entity.references.rend());
         }
     }
 

@@ -45,7 +45,8 @@ class StepText {
     }
 
   private:
-    Status fault(const std::string& code, const std::string& message, std::size_t at) const {
+    [[nodiscard]] Status fault(const std::string& code, const std::string& message,
+                               std::size_t at) const {
         const auto lines = std::count(
             bytes_.begin(),
             bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes_.size())), '\n');
