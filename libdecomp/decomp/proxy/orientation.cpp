@@ -49,25 +49,33 @@ Eigen::Matrix3d random_rotation(Rng& rng) {
         .toRotationMatrix();
 }
 
+/// Row i is the axis order[i], turned round where bit i of `signs` is set.
+Eigen::Matrix3d signed_permutation(const std::array<int, 3>& order, unsigned signs) {
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (int row = 0; row < 3; ++row) {
+        m(row, order.at(static_cast<std::size_t>(row))) =
+            ((signs >> static_cast<unsigned>(row)) & 1U) != 0 ? -1 : 1;
+    }
+    return m;
+}
+
+std::vector<Eigen::Matrix3d> made_axis_rotations() {
+    std::vector<Eigen::Matrix3d> made;
+    std::array<int, 3> order{0, 1, 2};
+    do {
+        for (unsigned signs = 0; signs < 8; ++signs) {
+            const Eigen::Matrix3d m = signed_permutation(order, signs);
+            if (m.determinant() > 0) {
+                made.push_back(m);
+            }
+        }
+    } while (std::next_permutation(order.begin(), order.end()));
+    return made;
+}
+
 /// The 24 rotations that map the axes onto axes.
 const std::vector<Eigen::Matrix3d>& axis_rotations() {
-    static const std::vector<Eigen::Matrix3d> all = [] {
-        std::vector<Eigen::Matrix3d> made;
-        std::array<int, 3> order{0, 1, 2};
-        do {
-            for (unsigned signs = 0; signs < 8; ++signs) {
-                Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-                for (int row = 0; row < 3; ++row) {
-                    m(row, order.at(static_cast<std::size_t>(row))) =
-                        ((signs >> static_cast<unsigned>(row)) & 1U) != 0 ? -1 : 1;
-                }
-                if (m.determinant() > 0) {
-                    made.push_back(m);
-                }
-            }
-        } while (std::next_permutation(order.begin(), order.end()));
-        return made;
-    }();
+    static const std::vector<Eigen::Matrix3d> all = made_axis_rotations();
     return all;
 }
 
@@ -179,6 +187,7 @@ std::vector<Eigen::Vector3d> outermost(const mesh::TriMesh& surface) {
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     std::vector<Eigen::Vector3d> points;
+    points.reserve(chosen.size());
     for (const std::size_t p : chosen) {
         points.push_back(surface.points[p]);
     }

@@ -84,7 +84,7 @@ std::vector<mesh::TriMesh> shells_of(const mesh::TriMesh& mesh) {
         parent[root(t[1])] = root(t[0]);
         parent[root(t[2])] = root(t[0]);
     }
-    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    constexpr auto kNone = static_cast<std::size_t>(-1);
     std::vector<std::size_t> shell_of(mesh.points.size(), kNone);
     std::vector<std::uint32_t> index(mesh.points.size(), 0);
     std::vector<bool> placed(mesh.points.size(), false);

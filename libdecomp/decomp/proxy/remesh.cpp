@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <exception>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace decomp::proxy {
@@ -107,6 +106,19 @@ void drop_short_chains(const Surface& surface, EdgeFlags& sharp, double least_mm
     }
 }
 
+/// The marked faces and those that share an edge with one.
+std::vector<bool> grown_by_a_ring(const Surface& surface, const std::vector<bool>& marked) {
+    std::vector<bool> grown = marked;
+    for (const auto face : surface.faces()) {
+        for (const auto other : surface.faces_around_face(surface.halfedge(face))) {
+            if (other != Surface::null_face() && marked[other]) {
+                grown[face] = true;
+            }
+        }
+    }
+    return grown;
+}
+
 /// Faces that neither line a tunnel narrower than that nor lie within some rings of such.
 std::vector<Surface::Face_index> away_from_tunnels(Surface& surface, double narrow_mm) {
     const std::vector<double> widths = tunnel_widths_mm(read_back(surface), 1);
@@ -115,15 +127,7 @@ std::vector<Surface::Face_index> away_from_tunnels(Surface& surface, double narr
         fine[f] = widths[f] < narrow_mm;
     }
     for (int ring = 0; ring < kTunnelRings; ++ring) {
-        std::vector<bool> grown = fine;
-        for (const auto face : surface.faces()) {
-            for (const auto other : surface.faces_around_face(surface.halfedge(face))) {
-                if (other != Surface::null_face() && fine[other]) {
-                    grown[face] = true;
-                }
-            }
-        }
-        fine = std::move(grown);
+        fine = grown_by_a_ring(surface, fine);
     }
     std::vector<Surface::Face_index> coarse;
     for (const auto face : surface.faces()) {
