@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace decomp::sections {
 
@@ -49,6 +50,49 @@ Eigen::Vector3d section_centre(const mesh::TriMesh& mesh, const part::Plane& pla
                      : Eigen::Vector3d(plane.offset_mm * plane.normal);
 }
 
+/// Moves a plane, along one parameter at a time, to where its section is smaller.
+class PatternSearch {
+  public:
+    PatternSearch(const mesh::TriMesh& mesh, Tilted tilted, const NeckSearch& limits, double shift)
+        : mesh_(mesh),
+          tilted_(std::move(tilted)),
+          limits_(limits),
+          start_shift_(shift),
+          best_{0, 0, shift},
+          least_(section_area(mesh, tilted_.plane(best_))) {}
+
+    /// Tries a step up and down each parameter and keeps what is better; false where none is.
+    bool improve(double tilt_step, double shift_step) {
+        bool better = false;
+        for (std::size_t k = 0; k < 6; ++k) {
+            std::array<double, 3> tried = best_;
+            const std::size_t axis = k / 2;
+            tried.at(axis) += (k % 2 == 0 ? 1 : -1) * (axis == 2 ? shift_step : tilt_step);
+            if (std::hypot(tried[0], tried[1]) > limits_.max_tilt ||
+                std::abs(tried[2] - start_shift_) > limits_.max_shift_mm) {
+                continue;
+            }
+            const double area = section_area(mesh_, tilted_.plane(tried));
+            if (area > 0 && area < least_ * (1 - kLeastGain)) {
+                best_ = tried;
+                least_ = area;
+                better = true;
+            }
+        }
+        return better;
+    }
+
+    [[nodiscard]] part::Plane plane() const { return tilted_.plane(best_); }
+
+  private:
+    const mesh::TriMesh& mesh_;
+    Tilted tilted_;
+    NeckSearch limits_;
+    double start_shift_;
+    std::array<double, 3> best_;
+    double least_;
+};
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> directions(const mesh::TriMesh& mesh) {
@@ -83,35 +127,17 @@ part::Plane refined_neck(const mesh::TriMesh& mesh, const part::Plane& start,
     tilted.u = basis[0];
     tilted.v = basis[1];
     tilted.pivot = section_centre(mesh, start);
-    std::array<double, 3> best{
-        0, 0, start.offset_mm / start.normal.norm() - tilted.direction.dot(tilted.pivot)};
-    const double start_shift = best[2];
-    double least = section_area(mesh, tilted.plane(best));
+    const double shift = start.offset_mm / start.normal.norm() - tilted.direction.dot(tilted.pivot);
+    PatternSearch pattern(mesh, tilted, search, shift);
     double tilt_step = search.max_tilt / 4;
     double shift_step = search.max_shift_mm / 4;
     for (int round = 0; round < search.rounds; ++round) {
-        for (bool better = true; better;) {
-            better = false;
-            for (std::size_t k = 0; k < 6; ++k) {
-                std::array<double, 3> tried = best;
-                const std::size_t axis = k / 2;
-                tried.at(axis) += (k % 2 == 0 ? 1 : -1) * (axis == 2 ? shift_step : tilt_step);
-                if (std::hypot(tried[0], tried[1]) > search.max_tilt ||
-                    std::abs(tried[2] - start_shift) > search.max_shift_mm) {
-                    continue;
-                }
-                const double area = section_area(mesh, tilted.plane(tried));
-                if (area > 0 && area < least * (1 - kLeastGain)) {
-                    best = tried;
-                    least = area;
-                    better = true;
-                }
-            }
+        while (pattern.improve(tilt_step, shift_step)) {
         }
         tilt_step /= 2;
         shift_step /= 2;
     }
-    return tilted.plane(best);
+    return pattern.plane();
 }
 
 }  // namespace decomp::sections

@@ -233,7 +233,7 @@ Station Profile::at(double t_mm) const {
 double section_area(const mesh::TriMesh& mesh, const part::Plane& plane) {
     const double length = plane.normal.norm();
     const Eigen::Vector3d direction = plane.normal / length;
-    const auto [u, v] = plane_basis(direction);
+    const auto basis = plane_basis(direction);
     const double t = plane.offset_mm / length;
     std::vector<double> heights(mesh.points.size());
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -247,7 +247,7 @@ double section_area(const mesh::TriMesh& mesh, const part::Plane& plane) {
         }
         const double s = heights[a] / (heights[a] - heights[b]);
         const Eigen::Vector3d p = mesh.points[a] + s * (mesh.points[b] - mesh.points[a]) - origin;
-        return Eigen::Vector2d(u.dot(p), v.dot(p));
+        return Eigen::Vector2d(basis[0].dot(p), basis[1].dot(p));
     };
     double area = 0;
     for (const mesh::Triangle& triangle : mesh.triangles) {
