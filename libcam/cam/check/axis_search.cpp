@@ -53,50 +53,67 @@ Eigen::Vector3d without_sense(const Eigen::Vector3d& axis) {
     return axis[largest] < 0 ? Eigen::Vector3d(-axis) : axis;
 }
 
-std::vector<Eigen::Vector3d> candidate_axes(const Part& part, const Facets& facets, int spread) {
-    std::vector<Eigen::Vector3d> axes;
-    const auto add = [&](const Eigen::Vector3d& direction) {
+/// Axes of which no two are nearly one, in the order in which they came.
+class DistinctAxes {
+  public:
+    void add(const Eigen::Vector3d& direction) {
         const Eigen::Vector3d axis = without_sense(direction.normalized());
-        const bool known = std::any_of(axes.begin(), axes.end(), [&](const auto& other) {
+        const bool known = std::any_of(axes_.begin(), axes_.end(), [&](const auto& other) {
             return std::abs(other.dot(axis)) > 1 - kSameAxis * kSameAxis / 2;
         });
         if (!known) {
-            axes.push_back(axis);
+            axes_.push_back(axis);
         }
-    };
+    }
+
+    [[nodiscard]] const std::vector<Eigen::Vector3d>& all() const { return axes_; }
+
+  private:
+    std::vector<Eigen::Vector3d> axes_;
+};
+
+void add_cut_planes(const Part& part, const Facets& facets, DistinctAxes& axes) {
     std::vector<std::int32_t> planes;
     for (std::size_t i = 0; i < part.sources.size(); ++i) {
         if (part.sources[i].is_cut() && facets.area_mm2[i] > 0 &&
             std::find(planes.begin(), planes.end(), part.sources[i].plane) == planes.end()) {
             planes.push_back(part.sources[i].plane);
-            add(facets.unit[i]);
+            axes.add(facets.unit[i]);
         }
     }
-    for (const auto& flat : decomp::mesh::large_flats(part.mesh)) {
-        add(flat.normal);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        add(Eigen::Vector3d::Unit(axis));
-    }
-    const Eigen::Matrix3d principal = decomp::mesh::moments(part.mesh).axes;
-    for (int axis = 0; axis < 3; ++axis) {
-        add(principal.col(axis));
-    }
+}
+
+/// From the middle of a cube to those of its faces and edges, and to its corners.
+void add_cube_directions(DistinctAxes& axes) {
     for (int x = -1; x <= 1; ++x) {
         for (int y = -1; y <= 1; ++y) {
-            for (int z = 0; z <= 1; ++z) {
-                if (x != 0 || y != 0 || z != 0) {
-                    add(Eigen::Vector3d(x, y, z));
-                }
+            for (int z = x == 0 && y == 0 ? 1 : 0; z <= 1; ++z) {
+                axes.add(Eigen::Vector3d(x, y, z));
             }
         }
     }
+}
+
+std::vector<Eigen::Vector3d> candidate_axes(const Part& part, const Facets& facets, int spread) {
+    DistinctAxes axes;
+    add_cut_planes(part, facets, axes);
+    for (const auto& flat : decomp::mesh::large_flats(part.mesh)) {
+        axes.add(flat.normal);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        axes.add(Eigen::Vector3d::Unit(axis));
+    }
+    const Eigen::Matrix3d principal = decomp::mesh::moments(part.mesh).axes;
+    for (int axis = 0; axis < 3; ++axis) {
+        axes.add(principal.col(axis));
+    }
+    add_cube_directions(axes);
     for (const Eigen::Vector3d& direction : fibonacci(2 * spread)) {
         if (direction.z() > 0) {
-            add(direction);
+            axes.add(direction);
         }
     }
-    return axes;
+    return axes.all();
 }
 
 /// Facets that stand for equal parts of the surface.
@@ -269,6 +286,7 @@ std::vector<Eigen::Vector3d> best_of(const std::vector<Eigen::Vector3d>& axes, i
                      [&](std::size_t a, std::size_t b) { return figures[a] < figures[b]; });
     order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
     std::vector<Eigen::Vector3d> out;
+    out.reserve(order.size());
     for (const std::size_t i : order) {
         out.push_back(axes[i]);
     }
@@ -326,6 +344,7 @@ std::vector<AxisChoice> search_axes(const Part& part, const Sight& sight,
         finalists.push_back(search.polished(finalists.front()));
     }
     std::vector<AxisChoice> choices;
+    choices.reserve(finalists.size());
     for (const Eigen::Vector3d& axis : finalists) {
         choices.push_back(measure_axis(part, sight, axis, options.angles, run));
     }

@@ -108,12 +108,13 @@ class Patches {
     void mark_bridges(double longest_mm) {
         std::vector<char> taken(mesh_.triangles.size(), 0);
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
-            if (taken[i] == 0 && is_level(i)) {
-                const std::vector<std::uint32_t> patch = level_patch(i, taken);
-                if (rests(patch, longest_mm)) {
-                    for (const std::uint32_t member : patch) {
-                        kind_[member] = Hanging::Bridge;
-                    }
+            if (taken[i] != 0 || !is_level(i)) {
+                continue;
+            }
+            const std::vector<std::uint32_t> patch = level_patch(i, taken);
+            if (rests(patch, longest_mm)) {
+                for (const std::uint32_t member : patch) {
+                    kind_[member] = Hanging::Bridge;
                 }
             }
         }
@@ -133,15 +134,20 @@ class Patches {
             const std::uint32_t v = left.back();
             left.pop_back();
             for (const std::uint32_t facet : around[v]) {
-                if (kind_[facet] != Hanging::Overhang) {
-                    continue;
-                }
-                kind_[facet] = Hanging::Island;
-                for (const std::uint32_t next : mesh_.triangles[facet]) {
-                    if (height_[next] < below) {
-                        left.push_back(next);
-                    }
-                }
+                add_to_island(facet, below, left);
+            }
+        }
+    }
+
+    /// A facet that still hangs joins the island, which goes on from its low corners.
+    void add_to_island(std::uint32_t facet, double below, std::vector<std::uint32_t>& left) {
+        if (kind_[facet] != Hanging::Overhang) {
+            return;
+        }
+        kind_[facet] = Hanging::Island;
+        for (const std::uint32_t next : mesh_.triangles[facet]) {
+            if (height_[next] < below) {
+                left.push_back(next);
             }
         }
     }

@@ -66,9 +66,9 @@ class PaddedRows {
             std::copy_n(map.z_mm.data() + map.index(0, row), map.columns, values(row) + pad);
             const float* from = values(row);
             for (int block = 0; block < blocks_; ++block) {
+                const float* first = from + std::ptrdiff_t{block} * kBlock;
                 const int width = block + 1 < blocks_ ? 2 * kBlock : kBlock;
-                highest_[at(row, block)] =
-                    *std::max_element(from + block * kBlock, from + block * kBlock + width);
+                highest_[at(row, block)] = *std::max_element(first, first + width);
             }
         }
     }
@@ -105,30 +105,100 @@ void raise(float* out, const float* from, const float* height) {
     }
 }
 
-void raise_row(HeightMap& out, int row, PaddedRows& rows, const Kernel& kernel) {
-    const int chunks = 2 * kernel.reach / kBlock;
+/// A block of outputs, from the column `first` on.
+struct Block {
+    int first = 0;
     std::array<float, kBlock> best{};
+    float worst = kNothing;  ///< of `best`
+};
+
+/// Raises a block by one row of the kernel, which lies over the row `source`.
+void raise_block(Block& block, PaddedRows& rows, int source, const KernelRow& line) {
+    const int chunks = static_cast<int>(line.least.size());
+    for (int c = 0; c < chunks; ++c) {
+        // Offsets of this chunk reach from block (first / kBlock + c) into the next.
+        const float top = rows.highest(source, block.first / kBlock + c);
+        if (!(top - line.least[static_cast<std::size_t>(c)] > block.worst)) {
+            continue;
+        }
+        const std::ptrdiff_t offset = std::ptrdiff_t{c} * kBlock;
+        raise(block.best.data(), rows.values(source) + block.first + offset,
+              line.height.data() + offset);
+        block.worst = *std::min_element(block.best.begin(), block.best.end());
+    }
+}
+
+void raise_row(HeightMap& out, int row, PaddedRows& rows, const Kernel& kernel) {
     for (int first = 0; first < out.columns; first += kBlock) {
-        best.fill(kNothing);
-        float worst = kNothing;
+        Block block;
+        block.first = first;
+        block.best.fill(kNothing);
         for (const KernelRow& line : kernel.rows) {
             const int source = row + line.offset;
-            if (source < 0 || source >= out.rows) {
-                continue;
-            }
-            for (int c = 0; c < chunks; ++c) {
-                // Offsets of this chunk reach from block (first / kBlock + c) into the next.
-                const float top = rows.highest(source, first / kBlock + c);
-                if (!(top - line.least[static_cast<std::size_t>(c)] > worst)) {
-                    continue;
-                }
-                raise(best.data(), rows.values(source) + first + c * kBlock,
-                      line.height.data() + c * kBlock);
-                worst = *std::min_element(best.begin(), best.end());
+            if (source >= 0 && source < out.rows) {
+                raise_block(block, rows, source, line);
             }
         }
-        std::copy_n(best.data(), std::min(kBlock, out.columns - first),
+        std::copy_n(block.best.data(), std::min(kBlock, out.columns - first),
                     out.z_mm.data() + out.index(first, row));
+    }
+}
+
+/// A map around a box with nothing in it yet.
+decomp::Result<HeightMap> empty_map(const Eigen::AlignedBox3d& box, const RasterOptions& options) {
+    HeightMap map;
+    map.cell_mm = options.cell_mm;
+    if (box.isEmpty()) {
+        return map;
+    }
+    map.low_mm = box.min().head<2>().array() - options.border_mm;
+    const Eigen::Array2d size = box.sizes().head<2>().array() + 2 * options.border_mm;
+    const Eigen::Array2d cells = (size / options.cell_mm).ceil() + 1;
+    if (cells.prod() > kMostCells) {
+        return decomp::fail("check.raster_too_large",
+                            "a height map of cells of " + decomp::decimal(options.cell_mm, 3) +
+                                " mm would have " + decomp::decimal(cells.prod() / 1e6, 0) +
+                                " million of them",
+                            {},
+                            "choose larger cells: --set reach.cell_mm=0.3 --set "
+                            "reach.tolerance_mm=0.3");
+    }
+    map.columns = static_cast<int>(cells.x());
+    map.rows = static_cast<int>(cells.y());
+    map.z_mm.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
+                    kNothing);
+    return map;
+}
+
+/// Raises a map to the points of one triangle.
+void raise_triangle(HeightMap& map, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                    const Eigen::Vector3d& c) {
+    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
+    if (!(area > 0)) {
+        return;  // faces down or is a wall: something else is higher
+    }
+    const auto first = [&](int axis) {
+        const double low = std::min({a[axis], b[axis], c[axis]}) - map.low_mm[axis];
+        return static_cast<int>(std::ceil(low / map.cell_mm - kOnEdge));
+    };
+    const auto last = [&](int axis) {
+        const double high = std::max({a[axis], b[axis], c[axis]}) - map.low_mm[axis];
+        return static_cast<int>(std::floor(high / map.cell_mm + kOnEdge));
+    };
+    const int last_row = std::min(last(1), map.rows - 1);
+    const int last_column = std::min(last(0), map.columns - 1);
+    for (int row = std::max(0, first(1)); row <= last_row; ++row) {
+        const double y = map.low_mm.y() + row * map.cell_mm;
+        for (int column = std::max(0, first(0)); column <= last_column; ++column) {
+            const double x = map.low_mm.x() + column * map.cell_mm;
+            const double u = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
+            const double w = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
+            if (u < -kOnEdge || w < -kOnEdge || u + w > 1 + kOnEdge) {
+                continue;
+            }
+            float& z = map.z_mm[map.index(column, row)];
+            z = std::max(z, static_cast<float>(a.z() + u * (b.z() - a.z()) + w * (c.z() - a.z())));
+        }
     }
 }
 
@@ -155,61 +225,12 @@ decomp::Result<HeightMap> raster(const TriMesh& mesh, const std::vector<Eigen::V
             box.extend(points[v]);
         }
     }
-    HeightMap map;
-    map.cell_mm = options.cell_mm;
-    if (box.isEmpty()) {
+    auto map = empty_map(box, options);
+    if (!map) {
         return map;
     }
-    map.low_mm = box.min().head<2>().array() - options.border_mm;
-    const Eigen::Array2d size = box.sizes().head<2>().array() + 2 * options.border_mm;
-    const Eigen::Array2d cells = (size / options.cell_mm).ceil() + 1;
-    if (cells.prod() > kMostCells) {
-        return decomp::fail("check.raster_too_large",
-                            "a height map of cells of " + decomp::decimal(options.cell_mm, 3) +
-                                " mm would have " + decomp::decimal(cells.prod() / 1e6, 0) +
-                                " million of them",
-                            {},
-                            "choose larger cells: --set reach.cell_mm=0.3 --set "
-                            "reach.tolerance_mm=0.3");
-    }
-    map.columns = static_cast<int>(cells.x());
-    map.rows = static_cast<int>(cells.y());
-    map.z_mm.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
-                    kNothing);
     for (const auto& t : mesh.triangles) {
-        const Eigen::Vector3d a = points[t[0]];
-        const Eigen::Vector3d b = points[t[1]];
-        const Eigen::Vector3d c = points[t[2]];
-        const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
-        if (!(area > 0)) {
-            continue;  // faces down or is a wall: something else is higher
-        }
-        const auto first = [&](int axis) {
-            const double low = std::min({a[axis], b[axis], c[axis]}) - map.low_mm[axis];
-            return static_cast<int>(std::ceil(low / map.cell_mm - kOnEdge));
-        };
-        const auto last = [&](int axis) {
-            const double high = std::max({a[axis], b[axis], c[axis]}) - map.low_mm[axis];
-            return static_cast<int>(std::floor(high / map.cell_mm + kOnEdge));
-        };
-        const int last_row = std::min(last(1), map.rows - 1);
-        const int last_column = std::min(last(0), map.columns - 1);
-        for (int row = std::max(0, first(1)); row <= last_row; ++row) {
-            const double y = map.low_mm.y() + row * map.cell_mm;
-            for (int column = std::max(0, first(0)); column <= last_column; ++column) {
-                const double x = map.low_mm.x() + column * map.cell_mm;
-                const double u =
-                    ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
-                const double w =
-                    ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
-                if (u < -kOnEdge || w < -kOnEdge || u + w > 1 + kOnEdge) {
-                    continue;
-                }
-                float& z = map.z_mm[map.index(column, row)];
-                z = std::max(z,
-                             static_cast<float>(a.z() + u * (b.z() - a.z()) + w * (c.z() - a.z())));
-            }
-        }
+        raise_triangle(*map, points[t[0]], points[t[1]], points[t[2]]);
     }
     return map;
 }
@@ -230,17 +251,17 @@ HeightMap highest_in_disc(const HeightMap& map, double radius_mm) {
     HeightMap out = map;
     std::fill(out.z_mm.begin(), out.z_mm.end(), kNothing);
     // Windows of 2^p cells; a window of any width is two of them that overlap.
-    const int width = map.columns + 2 * cells + 1;
+    const auto reach = static_cast<std::size_t>(cells);
+    const std::size_t width = static_cast<std::size_t>(map.columns) + 2 * reach + 1;
     std::vector<std::vector<float>> windows;
     for (int source = 0; source < map.rows; ++source) {
-        windows.assign(1, std::vector<float>(static_cast<std::size_t>(width), kNothing));
+        windows.assign(1, std::vector<float>(width, kNothing));
         std::copy_n(map.z_mm.data() + map.index(0, source), map.columns, windows[0].data() + cells);
-        for (int span = 1; 2 * span <= 2 * cells + 1; span *= 2) {
+        for (std::size_t span = 1; span <= reach; span *= 2) {
             const std::vector<float>& half = windows.back();
             std::vector<float> next(half);
-            for (int i = 0; i + span < width; ++i) {
-                next[static_cast<std::size_t>(i)] = std::max(
-                    half[static_cast<std::size_t>(i)], half[static_cast<std::size_t>(i + span)]);
+            for (std::size_t i = 0; i + span < width; ++i) {
+                next[i] = std::max(half[i], half[i + span]);
             }
             windows.push_back(std::move(next));
         }

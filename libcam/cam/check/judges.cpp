@@ -108,6 +108,7 @@ std::vector<double> heights(const decomp::mesh::Facets& facets, const Eigen::Vec
 
 std::vector<Plane> planes_across(const Eigen::Vector3d& direction, const std::vector<double>& at) {
     std::vector<Plane> planes;
+    planes.reserve(at.size());
     for (const double height : at) {
         planes.push_back({direction, height});
     }

@@ -114,7 +114,7 @@ class Checker {
     [[nodiscard]] std::vector<char> seen_in(const Mill3Pose& pose) const {
         std::vector<Eigen::Vector3d> directions{pose.direction};
         if (both()) {
-            directions.push_back(-pose.direction);
+            directions.emplace_back(-pose.direction);
         }
         return sight_.seen_from_any(directions, Facing::Wall, run_);
     }

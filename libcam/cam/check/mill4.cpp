@@ -104,7 +104,7 @@ class Checker {
         samples_ = sample_facets(part_.mesh, facets_, {.spacing_mm = sample_spacing_mm(tools)});
         together_.assign(samples_.facet.size(), 0);
         for (const tool::Tool& tool : tools) {
-            if (const auto tried = try_tool(tool); !tried) {
+            if (auto tried = try_tool(tool); !tried) {
                 return tried;
             }
         }

@@ -134,36 +134,49 @@ class Judge {
         return !tips.holds(at.x(), at.y()) || tips.at(at.x(), at.y()) <= z;
     }
 
+    /// A point as the grid sees it: in cells, not rounded.
+    struct Spot {
+        double column;
+        double row;
+        float z;
+    };
+
     /// Every place of the axis from which the cutter covers the point.
     void search(const Eigen::Vector3d& point, float z, char& cutter, char& whole) const {
-        const double radius = tool_.radius_mm();
-        const double column_of = (point.x() - map_.low_mm.x()) / map_.cell_mm;
-        const double row_of = (point.y() - map_.low_mm.y()) / map_.cell_mm;
-        const double cells = radius / map_.cell_mm;
-        const int first = std::max(0, static_cast<int>(std::ceil(row_of - cells)));
-        const int last = std::min(map_.rows - 1, static_cast<int>(std::floor(row_of + cells)));
-        for (int row = first; row <= last; ++row) {
-            const double half =
-                std::sqrt(std::max(0.0, cells * cells - (row - row_of) * (row - row_of)));
-            const int from = std::max(0, static_cast<int>(std::ceil(column_of - half)));
-            const int to =
-                std::min(map_.columns - 1, static_cast<int>(std::floor(column_of + half)));
-            for (int column = from; column <= to; ++column) {
-                const float lowest = tips_.cutter.at(column, row);
-                if (lowest > z) {
-                    continue;
-                }
-                const double r = std::sqrt((column - column_of) * (column - column_of) +
-                                           (row - row_of) * (row - row_of)) *
-                                 map_.cell_mm;
-                const float tip = z - heights_[static_cast<std::size_t>(r / radius_step() + 0.5)];
-                if (lowest <= tip) {
-                    cutter = 1;
-                    if (tips_.stem.at(column, row) <= tip) {
-                        whole = 1;
-                        return;
-                    }
-                }
+        const Spot spot{(point.x() - map_.low_mm.x()) / map_.cell_mm,
+                        (point.y() - map_.low_mm.y()) / map_.cell_mm, z};
+        const double cells = tool_.radius_mm() / map_.cell_mm;
+        const int first = std::max(0, static_cast<int>(std::ceil(spot.row - cells)));
+        const int last = std::min(map_.rows - 1, static_cast<int>(std::floor(spot.row + cells)));
+        for (int row = first; row <= last && whole == 0; ++row) {
+            search_row(spot, row, cutter, whole);
+        }
+    }
+
+    /// The places in one row of the grid, until the whole tool fits one.
+    void search_row(const Spot& spot, int row, char& cutter, char& whole) const {
+        const double cells = tool_.radius_mm() / map_.cell_mm;
+        const double half =
+            std::sqrt(std::max(0.0, cells * cells - (row - spot.row) * (row - spot.row)));
+        const int from = std::max(0, static_cast<int>(std::ceil(spot.column - half)));
+        const int to = std::min(map_.columns - 1, static_cast<int>(std::floor(spot.column + half)));
+        for (int column = from; column <= to; ++column) {
+            const float lowest = tips_.cutter.at(column, row);
+            if (lowest > spot.z) {
+                continue;
+            }
+            const double r = std::sqrt((column - spot.column) * (column - spot.column) +
+                                       (row - spot.row) * (row - spot.row)) *
+                             map_.cell_mm;
+            const double step = r / radius_step() + 0.5;  // the nearest, once truncated
+            const float tip = spot.z - heights_[static_cast<std::size_t>(step)];
+            if (lowest > tip) {
+                continue;
+            }
+            cutter = 1;
+            if (tips_.stem.at(column, row) <= tip) {
+                whole = 1;
+                return;
             }
         }
     }

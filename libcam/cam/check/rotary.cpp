@@ -47,28 +47,40 @@ Circle around(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::V
     return {a + to / twice, (to / twice).norm()};
 }
 
+using Points = std::vector<Eigen::Vector2d>;
+
+/// Smallest circle around the corners before `on` that passes through `last` and `on`.
+Circle through_two(const Points& hull, std::size_t last, std::size_t on) {
+    Circle circle = around(hull[last], hull[on]);
+    for (std::size_t k = 0; k < on; ++k) {
+        if (!circle.holds(hull[k])) {
+            circle = around(hull[last], hull[on], hull[k]);
+        }
+    }
+    return circle;
+}
+
+/// Smallest circle around the corners before `last` that passes through `last`.
+Circle through_one(const Points& hull, std::size_t last) {
+    Circle circle{hull[last], 0};
+    for (std::size_t j = 0; j < last; ++j) {
+        if (!circle.holds(hull[j])) {
+            circle = through_two(hull, last, j);
+        }
+    }
+    return circle;
+}
+
 /// Smallest circle around the corners of a convex hull, point by point.
-Circle smallest_circle(const std::vector<Eigen::Vector2d>& hull) {
+Circle smallest_circle(const Points& hull) {
     Circle circle;
     if (hull.empty()) {
         return circle;
     }
     circle.centre = hull[0];
     for (std::size_t i = 1; i < hull.size(); ++i) {
-        if (circle.holds(hull[i])) {
-            continue;
-        }
-        circle = {hull[i], 0};
-        for (std::size_t j = 0; j < i; ++j) {
-            if (circle.holds(hull[j])) {
-                continue;
-            }
-            circle = around(hull[i], hull[j]);
-            for (std::size_t k = 0; k < j; ++k) {
-                if (!circle.holds(hull[k])) {
-                    circle = around(hull[i], hull[j], hull[k]);
-                }
-            }
+        if (!circle.holds(hull[i])) {
+            circle = through_one(hull, i);
         }
     }
     return circle;

@@ -33,34 +33,40 @@ struct Groups {
     std::vector<std::int32_t> of;  // group of each facet, kNone for those outside
     std::vector<double> area;
 
-    std::size_t count() const { return area.size(); }
+    [[nodiscard]] std::size_t count() const { return area.size(); }
 };
 
+using Neighbours = std::vector<std::array<std::int32_t, 3>>;
+
+/// The group of a facet whose group is not known yet.
 template <class Belongs>
-Groups groups_of(const std::vector<std::array<std::int32_t, 3>>& neighbours,
-                 const std::vector<double>& area, Belongs belongs) {
+void flood_group(const Neighbours& neighbours, const std::vector<double>& area, Belongs belongs,
+                 std::size_t start, Groups& groups) {
+    const auto group = static_cast<std::int32_t>(groups.area.size());
+    groups.area.push_back(0);
+    groups.of[start] = group;
+    std::vector<std::size_t> left{start};
+    while (!left.empty()) {
+        const std::size_t facet = left.back();
+        left.pop_back();
+        groups.area.back() += area[facet];
+        for (const std::int32_t other : neighbours[facet]) {
+            const auto next = static_cast<std::size_t>(other);
+            if (other >= 0 && belongs(next) && groups.of[next] == kNone) {
+                groups.of[next] = group;
+                left.push_back(next);
+            }
+        }
+    }
+}
+
+template <class Belongs>
+Groups groups_of(const Neighbours& neighbours, const std::vector<double>& area, Belongs belongs) {
     Groups groups;
     groups.of.assign(neighbours.size(), kNone);
-    std::vector<std::size_t> left;
     for (std::size_t start = 0; start < neighbours.size(); ++start) {
-        if (!belongs(start) || groups.of[start] != kNone) {
-            continue;
-        }
-        const auto group = static_cast<std::int32_t>(groups.area.size());
-        groups.area.push_back(0);
-        left.assign(1, start);
-        groups.of[start] = group;
-        while (!left.empty()) {
-            const std::size_t facet = left.back();
-            left.pop_back();
-            groups.area.back() += area[facet];
-            for (const std::int32_t other : neighbours[facet]) {
-                const auto next = static_cast<std::size_t>(other);
-                if (other >= 0 && belongs(next) && groups.of[next] == kNone) {
-                    groups.of[next] = group;
-                    left.push_back(next);
-                }
-            }
+        if (belongs(start) && groups.of[start] == kNone) {
+            flood_group(neighbours, area, belongs, start, groups);
         }
     }
     return groups;
@@ -68,11 +74,11 @@ Groups groups_of(const std::vector<std::array<std::int32_t, 3>>& neighbours,
 
 class Surgeon {
   public:
-    Surgeon(const TriMesh& mesh, const std::vector<char>& wanted)
+    Surgeon(const TriMesh& mesh, std::vector<char> wanted)
         : mesh_(mesh),
           facets_(decomp::mesh::measure_facets(mesh)),
           neighbours_(decomp::mesh::neighbours(mesh)),
-          keep_(wanted) {
+          keep_(std::move(wanted)) {
         drop_specks();
         for (int round = 0; round < kMostRounds && widen_at_pinches(); ++round) {
         }
@@ -286,7 +292,7 @@ class Surgeon {
 
     const TriMesh& mesh_;
     decomp::mesh::Facets facets_;
-    std::vector<std::array<std::int32_t, 3>> neighbours_;
+    Neighbours neighbours_;
     std::vector<char> keep_;
     Groups patches_;
     std::vector<Fate> fate_;
