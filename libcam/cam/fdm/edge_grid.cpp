@@ -35,6 +35,22 @@ std::optional<std::pair<double, double>> meeting(const Vector2d& from, const Vec
     return std::pair(t, on_edge);
 }
 
+/// The nearest boundary point so far. Ties are broken by position in the region, not by cell.
+struct Nearest {
+    double least;  ///< squared distance
+    std::optional<BoundaryPoint> best;
+
+    void take(const BoundaryPoint& point, double distance2) {
+        const bool same = best && distance2 == least;
+        const bool earlier =
+            same && std::pair(point.loop, point.edge) < std::pair(best->loop, best->edge);
+        if (distance2 < least || earlier) {
+            least = distance2;
+            best = point;
+        }
+    }
+};
+
 }  // namespace
 
 EdgeGrid::EdgeGrid(const polygon::Paths& region) {
@@ -61,26 +77,13 @@ EdgeGrid::EdgeGrid(const polygon::Paths& region) {
     rows_ = static_cast<int>((high.y() - low_.y()) / cell_mm_) + 1;
     // Counted first, then filled in: two passes over the same cells.
     first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-    const auto each_cell = [&](const auto& body) {
-        for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-            for (std::uint32_t e = 0; e < loops_[l].size(); ++e) {
-                const auto [a, b] = ends({l, e});
-                visit_cells(a, b, [&](int i, int j) {
-                    body(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                             static_cast<std::size_t>(i),
-                         Edge{l, e});
-                    return true;
-                });
-            }
-        }
-    };
-    each_cell([&](std::size_t cell, const Edge&) { ++first_[cell + 1]; });
+    for_each_passing([&](std::size_t cell, const Edge&) { ++first_[cell + 1]; });
     for (std::size_t c = 0; c + 1 < first_.size(); ++c) {
         first_[c + 1] += first_[c];
     }
     edges_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    each_cell([&](std::size_t cell, const Edge& edge) { edges_[next[cell]++] = edge; });
+    for_each_passing([&](std::size_t cell, const Edge& edge) { edges_[next[cell]++] = edge; });
 }
 
 EdgeGrid::Ends EdgeGrid::ends(const Edge& edge) const {
@@ -119,6 +122,22 @@ void EdgeGrid::visit_cells(const Vector2d& from, const Vector2d& to, const Visit
             if (!visit(i, j)) {
                 return;
             }
+        }
+    }
+}
+
+/// Every edge with each cell that it passes.
+template <class Body>
+void EdgeGrid::for_each_passing(const Body& body) const {
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+        for (std::uint32_t e = 0; e < loops_[l].size(); ++e) {
+            const auto [a, b] = ends({l, e});
+            visit_cells(a, b, [&](int i, int j) {
+                body(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                         static_cast<std::size_t>(i),
+                     Edge{l, e});
+                return true;
+            });
         }
     }
 }
@@ -182,11 +201,10 @@ bool EdgeGrid::contains(const Vector2d& point) const {
 }
 
 std::optional<BoundaryPoint> EdgeGrid::nearest(const Vector2d& point, double reach_mm) const {
-    std::optional<BoundaryPoint> best;
-    double least = reach_mm * reach_mm;
     if (empty()) {
-        return best;
+        return std::nullopt;
     }
+    Nearest found{reach_mm * reach_mm, std::nullopt};
     const int i1 = column(point.x() + reach_mm);
     const int j1 = row(point.y() + reach_mm);
     for (int j = row(point.y() - reach_mm); j <= j1; ++j) {
@@ -197,20 +215,11 @@ std::optional<BoundaryPoint> EdgeGrid::nearest(const Vector2d& point, double rea
                 const double t =
                     length2 > 0 ? std::clamp((point - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
                 const Vector2d at = a + t * (b - a);
-                const double d = (at - point).squaredNorm();
-                // Ties by position in the region, not by cell.
-                const bool same = best && d == least;
-                const bool earlier =
-                    same && std::pair<std::size_t, std::size_t>(edge.loop, edge.index) <
-                                std::pair(best->loop, best->edge);
-                if (d < least || earlier) {
-                    least = d;
-                    best = BoundaryPoint{edge.loop, edge.index, t, at};
-                }
+                found.take({edge.loop, edge.index, t, at}, (at - point).squaredNorm());
             });
         }
     }
-    return best;
+    return found.best;
 }
 
 }  // namespace cam::fdm

@@ -65,6 +65,8 @@ class EdgeGrid {
     template <class Visit>
     void visit_cells(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                      const Visit& visit) const;
+    template <class Body>
+    void for_each_passing(const Body& body) const;
     template <class Visit>
     void visit_edges(int column, int row, const Visit& visit) const;
 

@@ -176,7 +176,7 @@ class LineFill {
         }
     }
 
-    Vector2d point(const Crossing& c) const {
+    [[nodiscard]] Vector2d point(const Crossing& c) const {
         const auto& loop = loops_[c.loop];
         const Vector2d& a = loop[c.edge];
         return a + c.on_edge * (loop[(c.edge + 1) % loop.size()] - a);

@@ -158,7 +158,7 @@ class LayerBeads {
         return out;
     }
 
-    Eigen::Vector2d at() const {
+    [[nodiscard]] Eigen::Vector2d at() const {
         return out_.empty() ? Eigen::Vector2d(0, 0) : out_.back().points.back();
     }
 

@@ -79,7 +79,7 @@ class MedialAxis {
     }
 
     /// The site of a cell that stands for a segment's end point.
-    Vector2d site_point(const Cell& cell) const {
+    [[nodiscard]] Vector2d site_point(const Cell& cell) const {
         const GridSegment& s = segments_[cell.source_index()];
         return local(cell.source_category() == boost::polygon::SOURCE_CATEGORY_SEGMENT_START_POINT
                          ? s.low()
