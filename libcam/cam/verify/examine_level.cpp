@@ -37,9 +37,13 @@ class LevelExam {
     void check_outside();
     void check_fill();
     void check_support();
+    void find_air(const Bitmap& touched, Bitmap& previous);
+    void check_islands(const Bitmap& carried);
     void check_holes();
     [[nodiscard]] double meant_inset_mm() const;
     void check_overhangs(const Bitmap& carried, const Bitmap& previous);
+    [[nodiscard]] Bitmap bridges_between(const Bitmap& anchors) const;
+    [[nodiscard]] int pixels_of(std::uint32_t k, const Bitmap& in) const;
     template <class Body>
     void rows_of(std::uint32_t k, const Body& body) const;
 
@@ -67,6 +71,13 @@ void LevelExam::rows_of(std::uint32_t k, const Body& body) const {
     const double height = lie.height > 0 ? lie.height : strand_diameter(lie.area);
     for_capsule_rows({b.x0, b.y0, b.x1, b.y1, bead_width(lie.area, height) / 2},
                      GridRows(window_, scene_.pixel_mm), body);
+}
+
+/// How much of a bead lies in a bitmap.
+int LevelExam::pixels_of(std::uint32_t k, const Bitmap& in) const {
+    int pixels = 0;
+    rows_of(k, [&](int j, int i0, int i1) { pixels += in.count(j, i0, i1); });
+    return pixels;
 }
 
 void LevelExam::make_window() {
@@ -263,26 +274,11 @@ void LevelExam::check_support() {
     if (level_.z <= touching) {
         return;  // on the bed
     }
-    std::size_t air = 0;
-    for (std::size_t w = 0; w < all_.words().size(); ++w) {
-        air += static_cast<std::size_t>(std::popcount(part_.words()[w] & ~touched.words()[w]));
-        carried.words()[w] &= all_.words()[w];
-    }
     Bitmap previous(window_);
-    if (air > 0) {
-        for (const Slicer& slicer : *scene_.slicers) {
-            fill_section(slicer.at(level_.z - 1.5 * report_.height_mm), scene_.pixel_mm, previous);
-        }
-        std::size_t internal = 0;
-        for (std::size_t w = 0; w < all_.words().size(); ++w) {
-            internal += static_cast<std::size_t>(
-                std::popcount(part_.words()[w] & ~touched.words()[w] & previous.words()[w]));
-        }
-        report_.internal_mm2 = mm2(internal);
-        report_.air_mm2 = mm2(air - internal);
-    }
+    find_air(touched, previous);
     std::size_t over_gap = 0;
     for (std::size_t w = 0; w < all_.words().size(); ++w) {
+        carried.words()[w] &= all_.words()[w];
         over_gap += static_cast<std::size_t>(std::popcount(
             part_.words()[w] & carried.words()[w] & ~touched.words()[w] & ~previous.words()[w]));
     }
@@ -291,6 +287,33 @@ void LevelExam::check_support() {
         return;  // over the bed by no more than the gap that is allowed
     }
     check_overhangs(carried, previous);
+    check_islands(carried);
+}
+
+/// Beads over nothing, outside and inside the section of the layer before, which `previous` gets
+/// where there are any.
+void LevelExam::find_air(const Bitmap& touched, Bitmap& previous) {
+    std::size_t air = 0;
+    for (std::size_t w = 0; w < all_.words().size(); ++w) {
+        air += static_cast<std::size_t>(std::popcount(part_.words()[w] & ~touched.words()[w]));
+    }
+    if (air == 0) {
+        return;
+    }
+    for (const Slicer& slicer : *scene_.slicers) {
+        fill_section(slicer.at(level_.z - 1.5 * report_.height_mm), scene_.pixel_mm, previous);
+    }
+    std::size_t internal = 0;
+    for (std::size_t w = 0; w < all_.words().size(); ++w) {
+        internal += static_cast<std::size_t>(
+            std::popcount(part_.words()[w] & ~touched.words()[w] & previous.words()[w]));
+    }
+    report_.internal_mm2 = mm2(internal);
+    report_.air_mm2 = mm2(air - internal);
+}
+
+/// Islands that rest on nothing, and the first bead of one.
+void LevelExam::check_islands(const Bitmap& carried) {
     Bitmap floating(window_);
     const std::vector<Island> islands = find_islands(all_, part_, carried, floating);
     for (const Island& island : islands) {
@@ -301,9 +324,7 @@ void LevelExam::check_support() {
         }
     }
     for (std::uint32_t k = level_.first; report_.islands > 0 && k < level_.last; ++k) {
-        int pixels = 0;
-        rows_of(k, [&](int j, int i0, int i1) { pixels += floating.count(j, i0, i1); });
-        if (pixels > 3) {
+        if (pixels_of(k, floating) > 3) {
             report_.island_line = bead(k).line;
             break;
         }
@@ -330,14 +351,7 @@ void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
     held.unite(previous);  // over the part below, be it hollow: infill carries an end
     Bitmap anchors = dilated(std::move(held), reach);
     for (int round = 0; round < kBridgeRounds; ++round) {
-        const std::vector<char> bridges =
-            find_bridges(*scene_.beads, *scene_.levels, level_, anchors, scene_.pixel_mm);
-        Bitmap bridged(window_);
-        for (std::uint32_t k = level_.first; k < level_.last; ++k) {
-            if (bridges[k - level_.first] != 0) {
-                rows_of(k, [&](int j, int i0, int i1) { bridged.fill(j, i0, i1); });
-            }
-        }
+        const Bitmap bridged = bridges_between(anchors);
         for (std::size_t w = 0; w < far.words().size(); ++w) {
             far.words()[w] &= ~bridged.words()[w];
         }
@@ -345,12 +359,23 @@ void LevelExam::check_overhangs(const Bitmap& carried, const Bitmap& previous) {
     }
     report_.hanging_mm2 = mm2(far.count());
     for (std::uint32_t k = level_.first; k < level_.last && report_.hanging_line == 0; ++k) {
-        int pixels = 0;
-        rows_of(k, [&](int j, int i0, int i1) { pixels += far.count(j, i0, i1); });
-        if (pixels > 3) {
+        if (pixels_of(k, far) > 3) {
             report_.hanging_line = bead(k).line;
         }
     }
+}
+
+/// The beads that end on anchors at both ends.
+Bitmap LevelExam::bridges_between(const Bitmap& anchors) const {
+    const std::vector<char> bridges =
+        find_bridges(*scene_.beads, *scene_.levels, level_, anchors, scene_.pixel_mm);
+    Bitmap bridged(window_);
+    for (std::uint32_t k = level_.first; k < level_.last; ++k) {
+        if (bridges[k - level_.first] != 0) {
+            rows_of(k, [&](int j, int i0, int i1) { bridged.fill(j, i0, i1); });
+        }
+    }
+    return bridged;
 }
 
 LevelReport LevelExam::run() {

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <numeric>
+#include <span>
 
 namespace cam::verify {
 namespace {
@@ -14,34 +15,36 @@ struct Run {
     bool carried;
 };
 
+/// The first set bit of a row from `at` on, or the row's width; with `flipped` all ones the first
+/// clear one.
+int first_bit(std::span<const std::uint64_t> words, int at, std::uint64_t flipped) {
+    const int width = static_cast<int>(words.size()) * 64;
+    while (at < width) {
+        const std::uint64_t word = (words[static_cast<std::size_t>(at) >> 6] ^ flipped) >>
+                                   (static_cast<unsigned>(at) & 63U);
+        if (word != 0) {
+            return at + std::countr_zero(word);
+        }
+        at = (at | 63) + 1;
+    }
+    return width;
+}
+
 std::vector<Run> runs_of(const Bitmap& deposit, const Bitmap& carried) {
     std::vector<Run> runs;
     const Window& window = deposit.window();
+    const int width = window.words * 64;
     for (int row = 0; row < window.rows; ++row) {
-        const std::uint64_t* words = deposit.row_words(row);
-        const int width = window.words * 64;
-        int at = 0;
+        const std::span words(deposit.row_words(row), static_cast<std::size_t>(window.words));
+        int at = first_bit(words, 0, 0);
         while (at < width) {
-            std::uint64_t word = words[at >> 6] >> (static_cast<unsigned>(at) & 63U);
-            if (word == 0) {
-                at = (at | 63) + 1;
-                continue;
-            }
-            at += std::countr_zero(word);
             const int first = at;
-            while (at < width) {
-                word = ~words[at >> 6] >> (static_cast<unsigned>(at) & 63U);
-                if (word == 0) {
-                    at = (at | 63) + 1;
-                    continue;
-                }
-                at += std::countr_zero(word);
-                break;
-            }
-            const int last = (at < width ? at : width) - 1;
+            at = first_bit(words, first, ~std::uint64_t{0});
+            const int last = at - 1;
             const bool rests =
                 carried.count(row + window.bottom, first + window.left, last + window.left) > 0;
             runs.push_back({row, first, last, rests});
+            at = first_bit(words, at, 0);
         }
     }
     return runs;

@@ -12,6 +12,14 @@ namespace {
 
 using decomp::decimal;
 
+/// A layer with a fault.
+struct Lapse {
+    int layer = -1;
+    long line = 0;
+    double figure = 0;
+    double share = 0;
+};
+
 /// Faults of consecutive layers told as one.
 struct Streak {
     const char* code = "";
@@ -21,15 +29,15 @@ struct Streak {
     double worst = 0;
     double worst_share = 0;
 
-    void add(int layer, long at, double figure, double share) {
+    void add(const Lapse& lapse) {
         if (first < 0) {
-            first = layer;
-            line = at;
+            first = lapse.layer;
+            line = lapse.line;
         }
-        last = layer;
-        if (figure > worst) {
-            worst = figure;
-            worst_share = share;
+        last = lapse.layer;
+        if (lapse.figure > worst) {
+            worst = lapse.figure;
+            worst_share = lapse.share;
         }
     }
 
@@ -143,15 +151,75 @@ void tell_details(const Details& totals, Figures& figures) {
         totals.seams.touching > 0 ? 100.0 * totals.seams.on_face / totals.seams.touching : 0;
 }
 
-}  // namespace
+void judge_islands(const Level& level, const LevelReport& report, const Scene& scene,
+                   FaultList& faults) {
+    if (report.islands > 0) {
+        faults.add({"proof.floating_island",
+                    report.island_line != 0 ? report.island_line : level.first_line,
+                    level.layer >= 0 ? level.layer : scene.levels->layer_at(level.z),
+                    std::to_string(report.islands) + " island(s) of " +
+                        decimal(report.island_mm2, 2) + " mm^2 at z " + decimal(level.z, 3) +
+                        " mm rest on nothing, 0 are allowed"});
+    }
+}
 
-void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, FaultList& faults,
-                  Proof& proof) {
-    Streak skin;
-    Streak outside;
-    Streak over;
-    Streak under;
-    Figures& figures = proof.figures;
+void judge_hanging(const Level& level, const LevelReport& report, Figures& figures,
+                   FaultList& faults) {
+    if (report.hanging_mm2 >= limits::kHangingMm2) {
+        figures.hanging_mm2 += report.hanging_mm2;
+        faults.add({"proof.unsupported", report.hanging_line, level.layer,
+                    decimal(report.hanging_mm2, 1) + " mm^2 of layer " +
+                        std::to_string(level.layer) + " hang further than " +
+                        decimal(limits::kHangingMm, 1) + " mm from anything that carries them, " +
+                        decimal(limits::kHangingMm2, 1) + " mm^2 are allowed"});
+    }
+}
+
+/// Skin, outside and fill, whose faults are told by streaks of layers.
+class Streaks {
+  public:
+    void judge(const Level& level, const LevelReport& report, FaultList& faults) {
+        const double share = report.ring_mm2 > 0 ? report.uncovered_mm2 / report.ring_mm2 : 0;
+        if (report.uncovered_mm2 > limits::kSkinMm2 && share > limits::kSkinShare) {
+            skin_.add({level.layer, level.first_line, report.uncovered_mm2, share});
+        } else {
+            tell_skin(skin_, faults);
+        }
+        if (report.outside_mm3 > limits::kOutsideLayerMm3) {
+            outside_.add({level.layer,
+                          report.outside_line != 0 ? report.outside_line : level.first_line,
+                          report.outside_mm3, 0});
+        } else {
+            tell_outside(outside_, faults);
+        }
+        if (report.fill > limits::kFillHigh) {
+            over_.add({level.layer, level.first_line, report.fill - 1, report.fill});
+        } else {
+            tell_fill(over_, faults, true);
+        }
+        if (report.fill > 0 && report.fill < limits::kFillLow) {
+            under_.add({level.layer, level.first_line, 1 - report.fill, report.fill});
+        } else {
+            tell_fill(under_, faults, false);
+        }
+    }
+
+    void tell(FaultList& faults) {
+        tell_skin(skin_, faults);
+        tell_outside(outside_, faults);
+        tell_fill(over_, faults, true);
+        tell_fill(under_, faults, false);
+    }
+
+  private:
+    Streak skin_;
+    Streak outside_;
+    Streak over_;
+    Streak under_;
+};
+
+/// Sums over all layers.
+struct Sums {
     double ring = 0;
     double uncovered = 0;
     double part = 0;
@@ -160,94 +228,47 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
     double bead_area = 0;
     double solid_volume = 0;
     double solid_room = 0;
-    Details totals;
-    double worst_outside = 0;
-    long worst_line = 0;
-    int worst_layer = -1;
-    for (std::size_t k = 0; k < reports.size(); ++k) {
-        const Level& level = scene.levels->levels[k];
-        const LevelReport& report = reports[k];
-        if (report.islands > 0) {
-            figures.floating_islands += report.islands;
-            faults.add({"proof.floating_island",
-                        report.island_line != 0 ? report.island_line : level.first_line,
-                        level.layer >= 0 ? level.layer : scene.levels->layer_at(level.z),
-                        std::to_string(report.islands) + " island(s) of " +
-                            decimal(report.island_mm2, 2) + " mm^2 at z " + decimal(level.z, 3) +
-                            " mm rest on nothing, 0 are allowed"});
-        }
-        if (level.layer < 0) {
-            continue;
-        }
-        if (report.hanging_mm2 >= limits::kHangingMm2) {
-            figures.hanging_mm2 += report.hanging_mm2;
-            faults.add({"proof.unsupported", report.hanging_line, level.layer,
-                        decimal(report.hanging_mm2, 1) + " mm^2 of layer " +
-                            std::to_string(level.layer) + " hang further than " +
-                            decimal(limits::kHangingMm, 1) +
-                            " mm from anything that carries them, " +
-                            decimal(limits::kHangingMm2, 1) + " mm^2 are allowed"});
-        }
-        ++figures.layers;
-        add_details(report, totals);
-        judge_details(level, report, scene, faults);
-        ring += report.ring_mm2;
-        uncovered += report.uncovered_mm2;
-        part += report.part_mm3;
-        air += report.air_mm2;
-        internal += report.internal_mm2;
-        bead_area += report.bead_mm2;
-        figures.out_of_part_mm3 += report.outside_mm3;
-        if (report.outside_mm3 > worst_outside) {
-            worst_outside = report.outside_mm3;
-            worst_line = report.outside_line != 0 ? report.outside_line : level.first_line;
-            worst_layer = level.layer;
-        }
-        const double share = report.ring_mm2 > 0 ? report.uncovered_mm2 / report.ring_mm2 : 0;
-        figures.worst_layer_uncovered_percent =
-            std::max(figures.worst_layer_uncovered_percent, 100 * share);
-        if (report.uncovered_mm2 > limits::kSkinMm2 && share > limits::kSkinShare) {
-            skin.add(level.layer, level.first_line, report.uncovered_mm2, share);
-        } else {
-            tell_skin(skin, faults);
-        }
-        if (report.outside_mm3 > limits::kOutsideLayerMm3) {
-            outside.add(level.layer,
+    Lapse outside;  ///< the worst
+};
+
+void add_sums(const Level& level, const LevelReport& report, Sums& sums, Figures& figures) {
+    ++figures.layers;
+    sums.ring += report.ring_mm2;
+    sums.uncovered += report.uncovered_mm2;
+    sums.part += report.part_mm3;
+    sums.air += report.air_mm2;
+    sums.internal += report.internal_mm2;
+    sums.bead_area += report.bead_mm2;
+    figures.out_of_part_mm3 += report.outside_mm3;
+    if (report.outside_mm3 > sums.outside.figure) {
+        sums.outside = {level.layer,
                         report.outside_line != 0 ? report.outside_line : level.first_line,
-                        report.outside_mm3, 0);
-        } else {
-            tell_outside(outside, faults);
-        }
-        if (report.fill > 0) {
-            ++figures.solid_layers;
-            solid_volume += report.part_mm3;
-            solid_room += report.part_mm3 / report.fill;
-        }
-        if (report.fill > limits::kFillHigh) {
-            over.add(level.layer, level.first_line, report.fill - 1, report.fill);
-        } else {
-            tell_fill(over, faults, true);
-        }
-        if (report.fill > 0 && report.fill < limits::kFillLow) {
-            under.add(level.layer, level.first_line, 1 - report.fill, report.fill);
-        } else {
-            tell_fill(under, faults, false);
-        }
+                        report.outside_mm3, 0};
     }
-    tell_skin(skin, faults);
-    tell_outside(outside, faults);
-    tell_fill(over, faults, true);
-    tell_fill(under, faults, false);
-    tell_details(totals, figures);
-    figures.uncovered_skin_percent = ring > 0 ? 100 * uncovered / ring : 0;
-    figures.out_of_part_percent = part > 0 ? 100 * figures.out_of_part_mm3 / part : 0;
-    figures.solid_fill_ratio = solid_room > 0 ? solid_volume / solid_room : 0;
-    figures.air_percent = bead_area > 0 ? 100 * air / bead_area : 0;
-    figures.internal_bridge_percent = bead_area > 0 ? 100 * internal / bead_area : 0;
-    // A little on every layer adds up.
-    if (worst_outside < limits::kOutsideLayerMm3 &&
-        figures.out_of_part_mm3 > limits::kOutsideShare * part && figures.out_of_part_mm3 > 1) {
-        faults.add({"proof.outside_part", worst_line, worst_layer,
+    const double share = report.ring_mm2 > 0 ? report.uncovered_mm2 / report.ring_mm2 : 0;
+    figures.worst_layer_uncovered_percent =
+        std::max(figures.worst_layer_uncovered_percent, 100 * share);
+    if (report.fill > 0) {
+        ++figures.solid_layers;
+        sums.solid_volume += report.part_mm3;
+        sums.solid_room += report.part_mm3 / report.fill;
+    }
+}
+
+void tell_sums(const Sums& sums, Figures& figures) {
+    figures.uncovered_skin_percent = sums.ring > 0 ? 100 * sums.uncovered / sums.ring : 0;
+    figures.out_of_part_percent = sums.part > 0 ? 100 * figures.out_of_part_mm3 / sums.part : 0;
+    figures.solid_fill_ratio = sums.solid_room > 0 ? sums.solid_volume / sums.solid_room : 0;
+    figures.air_percent = sums.bead_area > 0 ? 100 * sums.air / sums.bead_area : 0;
+    figures.internal_bridge_percent = sums.bead_area > 0 ? 100 * sums.internal / sums.bead_area : 0;
+}
+
+/// A little on every layer adds up.
+void judge_outside(const Sums& sums, const Figures& figures, FaultList& faults) {
+    if (sums.outside.figure < limits::kOutsideLayerMm3 &&
+        figures.out_of_part_mm3 > limits::kOutsideShare * sums.part &&
+        figures.out_of_part_mm3 > 1) {
+        faults.add({"proof.outside_part", sums.outside.line, sums.outside.layer,
                     decimal(figures.out_of_part_mm3, 2) + " mm^3 (" +
                         decimal(figures.out_of_part_percent, 4) +
                         " %) of the program's material lies outside the parts, " +
@@ -255,86 +276,32 @@ void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, F
     }
 }
 
-void judge_missing_layers(const Scene& scene, const std::vector<LevelReport>& reports,
-                          const std::vector<Climb>& climbs,
-                          const std::vector<std::string>& part_ids, FaultList& faults) {
-    const auto climb_between = [&](double low, double high, long otherwise) {
-        for (const Climb& climb : climbs) {
-            if (climb.z > low + 0.011 && climb.z < high - 0.011 && climb.line < otherwise) {
-                return static_cast<long>(climb.line);
-            }
-        }
-        return otherwise;
-    };
-    // Something to print: the part of the section that a bead can reach.
-    const auto printable = [&](const Slicer& slicer, double z) {
-        const Section section = slicer.at(z);
-        if (section.bounds.isEmpty()) {
-            return false;
-        }
-        const auto pixel = [&](double at) {
-            return static_cast<int>(std::floor(at / scene.pixel_mm));
-        };
-        const Eigen::AlignedBox2d& box = section.bounds;
-        Bitmap inside(Window::around(pixel(box.min().x()), pixel(box.min().y()),
-                                     pixel(box.max().x()), pixel(box.max().y())));
-        Bitmap rim(inside.window());
-        fill_section(section, scene.pixel_mm, inside);
-        draw_outline(section, 0.2, scene.pixel_mm, rim);
-        std::size_t pixels = 0;
-        for (std::size_t w = 0; w < rim.words().size(); ++w) {
-            pixels += static_cast<std::size_t>(std::popcount(inside.words()[w] & ~rim.words()[w]));
-        }
-        return static_cast<double>(pixels) * scene.pixel_mm * scene.pixel_mm >=
-               limits::kPrintableMm2;
-    };
-    for (std::size_t p = 0; p < scene.slicers->size(); ++p) {
-        const Slicer& slicer = (*scene.slicers)[p];
-        if (slicer.bounds().isEmpty()) {
+}  // namespace
+
+void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, FaultList& faults,
+                  Proof& proof) {
+    Figures& figures = proof.figures;
+    Streaks streaks;
+    Details totals;
+    Sums sums;
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+        const Level& level = scene.levels->levels[k];
+        const LevelReport& report = reports[k];
+        figures.floating_islands += report.islands;
+        judge_islands(level, report, scene, faults);
+        if (level.layer < 0) {
             continue;
         }
-        double below = slicer.bounds().min().z();
-        double height = 0;
-        long last_line = 0;
-        int layer = -1;
-        const auto missing = [&](double from, double to, long line, int at) {
-            faults.add({"proof.missing_layer", line, at,
-                        "part " + part_ids[p] + " has no material between z " + decimal(from, 3) +
-                            " and " + decimal(to, 3) + " mm, its layers are " + decimal(height, 3) +
-                            " mm high"});
-        };
-        for (std::size_t k = 0; k < reports.size(); ++k) {
-            if (reports[k].parts.empty() || reports[k].parts[p].covered_share < limits::kPresence) {
-                continue;
-            }
-            const Level& level = scene.levels->levels[k];
-            const double step = level.z - below;
-            const double usual = height > 0 ? height : reports[k].height_mm;
-            if (step > limits::kMissingLayers * usual) {
-                const double middle =
-                    height > 0 ? below + height / 2 : (below + level.z - usual) / 2;
-                height = usual;
-                if (printable(slicer, middle)) {
-                    missing(below, level.z - usual, climb_between(below, level.z, level.first_line),
-                            layer + 1);
-                }
-            }
-            height = std::min(reports[k].height_mm, step > 0 ? step : reports[k].height_mm);
-            below = level.z;
-            layer = level.layer;
-            last_line = level.first_line;
-        }
-        const double top = slicer.bounds().max().z();
-        if (layer < 0) {
-            if (printable(slicer, (below + top) / 2)) {
-                faults.add({"proof.missing_part", 0, -1,
-                            "part " + part_ids[p] + " is not made by this program"});
-            }
-        } else if (top - below > (limits::kMissingLayers - 0.5) * height &&
-                   printable(slicer, below + height / 2)) {
-            missing(below, top, climb_between(below, 1e9, last_line), layer + 1);
-        }
+        judge_hanging(level, report, figures, faults);
+        add_details(report, totals);
+        judge_details(level, report, scene, faults);
+        add_sums(level, report, sums, figures);
+        streaks.judge(level, report, faults);
     }
+    streaks.tell(faults);
+    tell_details(totals, figures);
+    tell_sums(sums, figures);
+    judge_outside(sums, figures, faults);
 }
 
 }  // namespace cam::verify

@@ -4,7 +4,6 @@
 #include "cam/verify/examine_level.h"
 #include "cam/verify/fault_list.h"
 
-#include <string>
 #include <vector>
 
 namespace cam::verify {
@@ -12,11 +11,5 @@ namespace cam::verify {
 /// Turns what the levels showed into faults and figures, level by level from the bed up. Serial.
 void judge_levels(const Scene& scene, const std::vector<LevelReport>& reports, FaultList& faults,
                   Proof& proof);
-
-/// Layers that a part should have and has not: steps that are too high, a missing foot or head, a
-/// part that is not made at all. `climbs` says where in the program the missing layer should be.
-void judge_missing_layers(const Scene& scene, const std::vector<LevelReport>& reports,
-                          const std::vector<Climb>& climbs,
-                          const std::vector<std::string>& part_ids, FaultList& faults);
 
 }  // namespace cam::verify

@@ -5,6 +5,7 @@
 #include "cam/verify/fault_list.h"
 #include "cam/verify/judge_levels.h"
 #include "cam/verify/limits.h"
+#include "cam/verify/missing_layers.h"
 #include "cam/verify/replay.h"
 #include "decomp/base/hash.h"
 #include "decomp/base/number.h"
@@ -20,19 +21,22 @@ namespace {
 constexpr std::size_t kBatch = 16;
 constexpr double kReachMm = 1.3;  ///< rough deposits are kept that far down
 
+bool names_its_points(const decomp::mesh::TriMesh& mesh) {
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+        return std::all_of(triangle.begin(), triangle.end(),
+                           [&](std::uint32_t v) { return v < mesh.points.size(); });
+    });
+}
+
 decomp::Status check_parts(const std::vector<PlacedPart>& parts, const profile::FdmSetup& setup) {
     constexpr double kFarMm = 100;
+    const auto& chamber = setup.machine.chamber;
     for (const PlacedPart& part : parts) {
-        for (const auto& triangle : part.mesh.triangles) {
-            for (const std::uint32_t v : triangle) {
-                if (v >= part.mesh.points.size()) {
-                    return decomp::fail("proof.bad_part",
-                                        "a triangle names a point that does not exist", part.id);
-                }
-            }
+        if (!names_its_points(part.mesh)) {
+            return decomp::fail("proof.bad_part", "a triangle names a point that does not exist",
+                                part.id);
         }
         for (const Eigen::Vector3d& point : part.mesh.points) {
-            const auto& chamber = setup.machine.chamber;
             if (!point.allFinite() || ((point - chamber.min_mm).array() < -kFarMm).any() ||
                 ((point - chamber.max_mm).array() > kFarMm).any()) {
                 return decomp::fail("proof.bad_part", "the part is not in the chamber", part.id,
