@@ -36,6 +36,13 @@ struct DropCutter::Drop {
     double enough = -kFree;  ///< a tip above this one needs no further search
 };
 
+/// A cell of the surface that may raise the tip.
+struct DropCutter::Candidate {
+    double bound;  ///< no tip over this cell is higher
+    int column;
+    int row;
+};
+
 DropCutter::DropCutter(const Surface& surface, const tool::Outline& outline)
     : surface_(&surface),
       outline_(outline),
@@ -64,7 +71,8 @@ double DropCutter::height(double r) const {
 }
 
 /// Where under the corner an edge holds a bull-nose: Newton between brackets.
-double DropCutter::best_on_corner(double distance, double slope, double low, double high) const {
+double DropCutter::best_on_corner(double distance, double slope, Span span) const {
+    auto [low, high] = span;
     const double flat = outline_.flat;
     const double corner = outline_.corner;
     double u = (low + high) / 2;
@@ -106,7 +114,7 @@ double DropCutter::best_along(double distance, double slope) const {
                    std::sqrt(1 + slope * slope);
         }
         const double low = half_chord(outline_.flat, distance);
-        return low < end ? best_on_corner(distance, slope, low, end) : end;
+        return low < end ? best_on_corner(distance, slope, {low, end}) : end;
     }
     if (!beyond_corner) {
         return half_chord(outline_.radius, distance);
@@ -242,27 +250,14 @@ bool DropCutter::clears(const Eigen::Vector2d& at, double z) const {
     return drop.tip <= limit;
 }
 
-void DropCutter::lower(Drop& drop) const {
+/// The cells under the outline that reach above the tip, row by row.
+void DropCutter::collect_cells(const Drop& drop, std::vector<Candidate>& candidates) const {
     const Eigen::Vector2d at(drop.x, drop.y);
     const Surface& surface = *surface_;
     const double radius = outline_.radius;
     const double cell = surface.cell_mm();
     const double low_x = surface.bounds().min().x();
     const double low_y = surface.bounds().min().y();
-    if (surface.facets() == 0 || !(at.x() + radius >= low_x) || !(at.y() + radius >= low_y) ||
-        !(at.x() - radius <= surface.bounds().max().x()) ||
-        !(at.y() - radius <= surface.bounds().max().y())) {
-        return;
-    }
-
-    struct Candidate {
-        double bound;
-        int column;
-        int row;
-    };
-
-    thread_local std::vector<Candidate> candidates;
-    candidates.clear();
     const auto cell_of = [&](double offset, int count) {
         return static_cast<int>(std::clamp(offset / cell, 0.0, static_cast<double>(count - 1)));
     };
@@ -290,6 +285,19 @@ void DropCutter::lower(Drop& drop) const {
             }
         }
     }
+}
+
+void DropCutter::lower(Drop& drop) const {
+    const auto& bounds = surface_->bounds();
+    const double radius = outline_.radius;
+    if (surface_->facets() == 0 || !(drop.x + radius >= bounds.min().x()) ||
+        !(drop.y + radius >= bounds.min().y()) || !(drop.x - radius <= bounds.max().x()) ||
+        !(drop.y - radius <= bounds.max().y())) {
+        return;
+    }
+    thread_local std::vector<Candidate> candidates;
+    candidates.clear();
+    collect_cells(drop, candidates);
     const auto higher = [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; };
     // The most promising cell mostly settles the height: the others need no order before that.
     const auto first = std::max_element(candidates.begin(), candidates.end(),

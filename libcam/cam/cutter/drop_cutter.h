@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <vector>
 
 namespace cam::cutter {
 
@@ -32,6 +33,13 @@ class DropCutter {
 
   private:
     struct Drop;
+    struct Candidate;
+
+    /// Part of an edge.
+    struct Span {
+        double low;
+        double high;
+    };
 
     enum class Kind { Flat, Ball, Other };
 
@@ -40,11 +48,11 @@ class DropCutter {
     [[nodiscard]] bool holds_inside(const Surface::Facet& facet, const Drop& drop) const;
     [[nodiscard]] double place_on(const Surface::Edge& edge, double distance, double rim) const;
     void lower(Drop& drop) const;
+    void collect_cells(const Drop& drop, std::vector<Candidate>& candidates) const;
     void lower_on_cell(int column, int row, Drop& drop) const;
     void lower_on_edge(const Surface::Edge& edge, Drop& drop) const;
     [[nodiscard]] double best_along(double distance, double slope) const;
-    [[nodiscard]] double best_on_corner(double distance, double slope, double low,
-                                        double high) const;
+    [[nodiscard]] double best_on_corner(double distance, double slope, Span span) const;
     [[nodiscard]] double height(double r) const;
 
     const Surface* surface_;

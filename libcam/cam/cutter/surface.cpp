@@ -58,6 +58,29 @@ bool is_valley(const TriMesh& mesh, const Triangle& beyond, const Vector3d& unit
     return false;
 }
 
+/// A facet without its edges.
+Surface::Facet facet_of(const TriMesh& mesh, const Triangle& corner, const Vector3d& unit) {
+    Surface::Facet facet;
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d& p = mesh.points[corner[i]];
+        facet.corners[2 * i] = p.x();
+        facet.corners[2 * i + 1] = p.y();
+        box.extend(p);
+    }
+    facet.box = {lower_float(box.min().x()), lower_float(box.min().y()), upper_float(box.max().x()),
+                 upper_float(box.max().y())};
+    facet.has_plane = unit.z() > kWall;
+    if (facet.has_plane) {
+        facet.gx = -unit.x() / unit.z();
+        facet.gy = -unit.y() / unit.z();
+        facet.steepness = std::hypot(facet.gx, facet.gy);
+        facet.stretch = std::hypot(1, facet.steepness);
+        facet.z0 = mesh.points[corner[0]].z();
+    }
+    return facet;
+}
+
 }  // namespace
 
 Surface::Surface(const TriMesh& mesh) : bounds_(decomp::mesh::bounds(mesh)) {
@@ -72,53 +95,43 @@ void Surface::collect_facets(const TriMesh& mesh) {
     const decomp::mesh::Facets measured = decomp::mesh::measure_facets(mesh);
     const auto beside = decomp::mesh::neighbours(mesh);
     const auto up = [&](std::size_t t) { return measured.unit[t].z() > kFacesDown; };
+    // Whether facet t leaves an edge out: a facet before it has it, or no tool rests on it.
+    const auto is_spare = [&](std::size_t t, std::size_t edge) {
+        const std::int32_t other = beside[t][edge];
+        if (other < 0 || !up(static_cast<std::size_t>(other))) {
+            return false;
+        }
+        const auto o = static_cast<std::size_t>(other);
+        const Triangle& corner = mesh.triangles[t];
+        const bool both = measured.unit[t].z() > kWall && measured.unit[o].z() > kWall;
+        return o < t || (both && is_valley(mesh, mesh.triangles[o], measured.unit[t], corner[edge],
+                                           corner[(edge + 1) % 3]));
+    };
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vector3d& unit = measured.unit[t];
         if (!up(t)) {
             continue;
         }
-        Facet facet;
         const Triangle& corner = mesh.triangles[t];
-        Eigen::AlignedBox3d box;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vector3d& p = mesh.points[corner[i]];
-            facet.corners[2 * i] = p.x();
-            facet.corners[2 * i + 1] = p.y();
-            box.extend(p);
-        }
-        facet.box = {lower_float(box.min().x()), lower_float(box.min().y()),
-                     upper_float(box.max().x()), upper_float(box.max().y())};
-        facet.has_plane = unit.z() > kWall;
-        if (facet.has_plane) {
-            facet.gx = -unit.x() / unit.z();
-            facet.gy = -unit.y() / unit.z();
-            facet.steepness = std::hypot(facet.gx, facet.gy);
-            facet.stretch = std::hypot(1, facet.steepness);
-            facet.z0 = mesh.points[corner[0]].z();
-        }
+        Facet facet = facet_of(mesh, corner, measured.unit[t]);
         facet.first_edge = static_cast<std::uint32_t>(edges_.size());
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = corner[i];
-            const std::size_t b = corner[(i + 1) % 3];
-            const std::int32_t other = beside[t][i];
-            if (other >= 0 && up(static_cast<std::size_t>(other))) {
-                const auto o = static_cast<std::size_t>(other);
-                const bool both = facet.has_plane && measured.unit[o].z() > kWall;
-                if (o < t || (both && is_valley(mesh, mesh.triangles[o], unit, a, b))) {
-                    continue;
-                }
-            }
-            const Vector3d& p = mesh.points[a];
-            const Vector3d along = mesh.points[b] - p;
-            const double length = std::hypot(along.x(), along.y());
-            if (length > kVertical) {
-                edges_.push_back({p.x(), p.y(), p.z(), along.x() / length, along.y() / length,
-                                  length, along.z() / length, along.z() / along.norm()});
+            if (!is_spare(t, i)) {
+                add_edge(mesh.points[corner[i]], mesh.points[corner[(i + 1) % 3]]);
             }
         }
         facet.edges = static_cast<std::uint32_t>(edges_.size()) - facet.first_edge;
         facets_.push_back(facet);
-        facet_tops_.push_back(box.max().z());
+        facet_tops_.push_back(std::max(
+            {mesh.points[corner[0]].z(), mesh.points[corner[1]].z(), mesh.points[corner[2]].z()}));
+    }
+}
+
+void Surface::add_edge(const Vector3d& from, const Vector3d& to) {
+    const Vector3d along = to - from;
+    const double length = std::hypot(along.x(), along.y());
+    if (length > kVertical) {
+        edges_.push_back({from.x(), from.y(), from.z(), along.x() / length, along.y() / length,
+                          length, along.z() / length, along.z() / along.norm()});
     }
 }
 

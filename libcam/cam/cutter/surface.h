@@ -77,6 +77,7 @@ class Surface {
 
   private:
     void collect_facets(const decomp::mesh::TriMesh& mesh);
+    void add_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
     void sort_into_cells();
 
     Eigen::AlignedBox3d bounds_;
