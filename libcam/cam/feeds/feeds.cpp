@@ -37,48 +37,55 @@ struct Turning {
     double feed_mm_per_min = 0;
 };
 
-/// Speed and feed of a cut at this diameter and chip, clamped by the machine.
-Turning turning(double diameter_mm, double chip_mm, double thinning, const Tool& tool,
-                const MillMaterial& material, const MillMachine& machine,
-                std::vector<std::string>& notes, const char* what) {
+/// How a tool meets the material in one kind of cut.
+struct Bite {
+    const char* what = "";  ///< the kind, for notes
+    double diameter_mm = 0;
+    double chip_mm = 0;
+    double thinning = 1;  ///< the feed is this much faster for the same chip
+};
+
+/// Speed and feed of a cut, clamped by the machine.
+Turning turning(const Bite& bite, int flutes, const MillMaterial& material,
+                const MillMachine& machine, std::vector<std::string>& notes) {
+    const std::string what = bite.what;
     const double wished_rpm =
-        1000 * material.surface_speed_m_per_min / (std::numbers::pi * diameter_mm);
+        1000 * material.surface_speed_m_per_min / (std::numbers::pi * bite.diameter_mm);
     Turning out;
     out.rpm = std::clamp(wished_rpm, machine.spindle.min_rpm, machine.spindle.max_rpm);
     if (wished_rpm < machine.spindle.min_rpm) {
-        notes.push_back(std::string(what) + ": the spindle's slowest speed, " +
+        notes.push_back(what + ": the spindle's slowest speed, " +
                         decomp::decimal(machine.spindle.min_rpm, 0) +
                         "/min, is faster than the material wants");
     }
-    const double teeth = tool.flutes;
+    const double teeth = flutes;
     const double top = machine.axes.max_feed_mm_per_min.head<2>().minCoeff();
-    out.feed_mm_per_min = out.rpm * teeth * chip_mm * thinning;
+    out.feed_mm_per_min = out.rpm * teeth * bite.chip_mm * bite.thinning;
     if (out.feed_mm_per_min > top) {
         out.feed_mm_per_min = top;
-        notes.push_back(std::string(what) + ": feed clamped to the axes' " +
-                        decomp::decimal(top, 0) + " mm/min");
+        notes.push_back(what + ": feed clamped to the axes' " + decomp::decimal(top, 0) +
+                        " mm/min");
     }
-    const double least_chip_mm = std::min(material.min_chip_mm, chip_mm) * thinning;
+    const double least_chip_mm = std::min(material.min_chip_mm, bite.chip_mm) * bite.thinning;
     const double slow = out.feed_mm_per_min / (teeth * least_chip_mm);
     if (out.rpm > slow * kSame) {
         out.rpm = std::max(slow, machine.spindle.min_rpm);
-        notes.push_back(std::string(what) + ": the spindle slows to " +
-                        decomp::decimal(out.rpm, 0) + "/min so that chips are cut, not rubbed");
+        notes.push_back(what + ": the spindle slows to " + decomp::decimal(out.rpm, 0) +
+                        "/min so that chips are cut, not rubbed");
     }
     out.rpm = std::max(std::floor(out.rpm), machine.spindle.min_rpm);
     return out;
 }
 
-path::CutValues values_of(const Turning& turning, double plunge_factor, double ramp_factor,
-                          double step_down_mm, double step_over_mm, double max_z_mm_per_min) {
+path::CutValues values_of(const Turning& turning, const MillMaterial& material,
+                          const MillMachine& machine) {
     const auto speed = [](double mm_per_min) { return Speed::mm_per_s(mm_per_min / 60); };
+    const double max_z = machine.axes.max_feed_mm_per_min.z();
     path::CutValues out;
     out.spindle_rpm = turning.rpm;
     out.feed = speed(turning.feed_mm_per_min);
-    out.ramp = speed(std::min(turning.feed_mm_per_min * ramp_factor, max_z_mm_per_min));
-    out.plunge = speed(std::min(turning.feed_mm_per_min * plunge_factor, max_z_mm_per_min));
-    out.step_down_mm = step_down_mm;
-    out.step_over_mm = step_over_mm;
+    out.ramp = speed(std::min(turning.feed_mm_per_min * material.ramp_factor, max_z));
+    out.plunge = speed(std::min(turning.feed_mm_per_min * material.plunge_factor, max_z));
     return out;
 }
 
@@ -132,13 +139,15 @@ Feeds feeds_for(const Tool& tool, const MillMaterial& material, const MillMachin
     const double chip_mm = material.chip_load * d;
     const double depth_mm = std::min(material.step_down * d, tool.flute_mm);
     const double width_mm = material.step_over * d;
-    const double max_z = machine.axes.max_feed_mm_per_min.z();
     const auto cut = [&](double diameter_mm, double thinning, const char* what) {
-        return turning(diameter_mm, chip_mm, thinning, tool, material, machine, out.notes, what);
+        return turning({what, diameter_mm, chip_mm, thinning}, tool.flutes, material, machine,
+                       out.notes);
     };
     const auto values = [&](const Turning& turning, double down_mm, double over_mm) {
-        return values_of(turning, material.plunge_factor, material.ramp_factor, down_mm, over_mm,
-                         max_z);
+        path::CutValues cut_values = values_of(turning, material, machine);
+        cut_values.step_down_mm = down_mm;
+        cut_values.step_over_mm = over_mm;
+        return cut_values;
     };
     if (tool.shape != Shape::Drill && tool.shape != Shape::V) {
         out.values.rough = values(cut(d, chip_thinning(d, width_mm), "rough"), depth_mm, width_mm);
