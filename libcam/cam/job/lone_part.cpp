@@ -76,7 +76,7 @@ Result<decomp::mesh::TriMesh> read_drawable(const MeshRequest& request, Run& run
 }
 
 Result<decomp::mesh::TriMesh> read_solid(const MeshRequest& request, Run& run) {
-    const auto mesh = read_drawable(request, run);
+    auto mesh = read_drawable(request, run);
     if (!mesh) {
         return mesh;
     }

@@ -65,12 +65,9 @@ std::array<double, 16> model_from_file(decomp::io::Up up, const TriMesh& before,
     const double height_after = decomp::mesh::bounds(after).sizes().z();
     const double scale = height_before > 0 ? height_after / height_before : 1;
     std::array<double, 16> out{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            out.at(static_cast<std::size_t>(4 * row + column)) = scale * turn(row, column);
-        }
-    }
-    out[15] = 1;
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> map(out.data());
+    map.topLeftCorner<3, 3>() = scale * turn;
+    map(3, 3) = 1;
     return out;
 }
 
@@ -86,6 +83,37 @@ Pose without_negative_zeros(const Pose& pose) {
 
 std::string violation_text(const decomp::part::Violation& violation) {
     return violation.constraint + " by " + decomp::decimal(violation.by_ratio, 3);
+}
+
+Result<decomp::pipeline::DecomposeOptions> decompose_options(const JobOptions& wishes) {
+    const auto mode = decomp::pipeline::mode_named(wishes.mode);
+    if (!mode) {
+        return fail(mode.error());
+    }
+    decomp::pipeline::DecomposeOptions options;
+    options.max_parts = wishes.max_parts;
+    options.mode = *mode;
+    options.global_sweep = wishes.sweep == "global";
+    options.keep_boxes = wishes.boxes;
+    return options;
+}
+
+/// What the job keeps of a part, given its pose, the part so placed, and the judge's word.
+PartFacts facts_of(const decomp::part::Part& part, const Pose& pose, const TriMesh& printed,
+                   const decomp::part::Verdict& verdict) {
+    PartFacts facts;
+    facts.id = part.id;
+    facts.triangles = part.mesh.triangles.size();
+    facts.volume_mm3 = decomp::mesh::volume_mm3(part.mesh);
+    facts.extent_mm = decomp::mesh::bounds(printed).sizes();
+    facts.part_from_model = pose;
+    facts.base = base_of(part, pose);
+    facts.support_area_mm2 = verdict.support_area_mm2;
+    facts.violations.reserve(verdict.violations.size());
+    for (const auto& violation : verdict.violations) {
+        facts.violations.push_back(violation_text(violation));
+    }
+    return facts;
 }
 
 }  // namespace
@@ -176,23 +204,18 @@ Maker::Files Maker::make_parts(Run& run) {
     if (!model) {
         return fail(model.error());
     }
-    decomp::pipeline::DecomposeOptions options;
-    options.max_parts = job_.options.max_parts;
-    const auto mode = decomp::pipeline::mode_named(job_.options.mode);
-    if (!mode) {
-        return fail(mode.error());
+    auto options = decompose_options(job_.options);
+    if (!options) {
+        return fail(options.error());
     }
-    options.mode = *mode;
-    options.global_sweep = job_.options.sweep == "global";
-    options.keep_boxes = job_.options.boxes;
     const auto map = map_for(*model, run);
     if (!map) {
         return fail(map.error());
     }
-    options.map = *map;
+    options->map = *map;
     profile::FdmSetup judged = setup_;
     judged.machine = judged_machine();
-    auto decomposed = decomp::pipeline::decompose(*model, options, orient::fdm_judge(judged), run);
+    auto decomposed = decomp::pipeline::decompose(*model, *options, orient::fdm_judge(judged), run);
     if (!decomposed) {
         return fail(decomposed.error());
     }
@@ -210,19 +233,8 @@ Maker::Files Maker::make_parts(Run& run) {
     for (std::size_t i = 0; i < decomposed->assembly.parts.size(); ++i) {
         const decomp::part::Part& part = decomposed->assembly.parts[i];
         const Pose pose = without_negative_zeros(decomposed->poses[i]);
-        const auto& verdict = decomposed->verdicts[i];
         const TriMesh printed = orient::placed(part, pose);
-        PartFacts facts;
-        facts.id = part.id;
-        facts.triangles = part.mesh.triangles.size();
-        facts.volume_mm3 = decomp::mesh::volume_mm3(part.mesh);
-        facts.extent_mm = decomp::mesh::bounds(printed).sizes();
-        facts.part_from_model = pose;
-        facts.base = base_of(part, pose);
-        facts.support_area_mm2 = verdict.support_area_mm2;
-        for (const auto& violation : verdict.violations) {
-            facts.violations.push_back(violation_text(violation));
-        }
+        PartFacts facts = facts_of(part, pose, printed, decomposed->verdicts[i]);
         if (!facts.violations.empty()) {
             return fail("job.part_does_not_fit",
                         "the part exceeds the machine: " + facts.violations.front(), part.id);

@@ -79,13 +79,9 @@ Result<Map> Maker::map_for(const decomp::mesh::TriMesh& model, decomp::Run& run)
     if (!pair) {
         return fail(pair.error());
     }
-    Eigen::Matrix3d turn;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            turn(row, column) =
-                job_.model.model_from_file.at(static_cast<std::size_t>(4 * row + column));
-        }
-    }
+    using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+    const Eigen::Matrix3d turn =
+        Eigen::Map<const RowMajor>(job_.model.model_from_file.data()).topLeftCorner<3, 3>();
     for (Eigen::Vector3d& point : pair->shape) {
         point = turn * point;
     }

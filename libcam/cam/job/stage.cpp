@@ -142,7 +142,7 @@ decomp::Status StageRunner::run(const std::string& name, const StageKey& key, do
         for (const FileBytes& file : *files) {
             std::error_code ignored;
             fs::create_directories((directory_ / file.path).parent_path(), ignored);
-            const auto written =
+            auto written =
                 decomp::write_file(directory_ / file.path, file.bytes, decomp::Overwrite::Allow);
             if (!written) {
                 return written;
@@ -150,7 +150,7 @@ decomp::Status StageRunner::run(const std::string& name, const StageKey& key, do
             finished.outputs.push_back({file.path, decomp::sha256_hex(file.bytes)});
         }
         replace_record(std::move(finished));
-        if (const auto written = write_job(); !written) {
+        if (auto written = write_job(); !written) {
             return written;
         }
     }

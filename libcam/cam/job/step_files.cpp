@@ -48,26 +48,33 @@ bool is_sound(const WrittenPart& written, const decomp::mesh::TriMesh& mesh, dou
            std::abs(figures.volume_mm3 - volume_mm3) <= allowed_mm3;
 }
 
+/// How the parts of one job are written.
+struct StepStyle {
+    double tolerance_mm;
+    bool many_faces;
+    decomp::brep::StepSchema schema;
+};
+
 /// The least simple solid that is sound.
 Result<WrittenPart> write_part(const decomp::part::Part& part, const Eigen::Isometry3d& placed,
-                               const StepWish& wish, double tolerance_mm,
-                               decomp::brep::StepSchema schema, std::array<double, 3> colour,
+                               const StepStyle& style, std::array<double, 3> colour,
                                const Run& run) {
     for (const Detail detail : {Detail::Curved, Detail::Flat, Detail::CutsAlone}) {
         auto made = decomp::solid::make_solid(
-            part, {.tolerance_mm = tolerance_mm, .detail = detail, .force = wish.many_faces}, run);
+            part, {.tolerance_mm = style.tolerance_mm, .detail = detail, .force = style.many_faces},
+            run);
         if (!made) {
             return fail(made.error());
         }
         // Recognised where the part came from, with its exact directions; then moved.
         made->solid = decomp::solid::moved(std::move(made->solid), placed);
         auto file =
-            decomp::brep::write_step({{part.id, made->solid, colour}}, part.id, schema, run);
+            decomp::brep::write_step({{part.id, made->solid, colour}}, part.id, style.schema, run);
         if (!file) {
             return fail(file.error());
         }
         WrittenPart written{std::move(*made), std::move(*file)};
-        if (is_sound(written, part.mesh, tolerance_mm)) {
+        if (is_sound(written, part.mesh, style.tolerance_mm)) {
             return written;
         }
         run.info("step/" + part.id + ".step: not sound with " +
@@ -113,11 +120,11 @@ StageKey step_key(const JobFile& job, const StageRunner& stages) {
 Result<std::vector<FileBytes>> step_files(const std::filesystem::path& directory, JobFile& job,
                                           Run& run) {
     const StepWish& wish = job.options.step;
-    const double tolerance_mm = wish.tolerance_mm.value_or(kPrintedStepMm);
     const auto schema = decomp::brep::parse_schema(wish.schema);
     if (!schema) {
         return fail(schema.error());
     }
+    const StepStyle style{wish.tolerance_mm.value_or(kPrintedStepMm), wish.many_faces, *schema};
     job.step_parts.clear();
     std::vector<FileBytes> files;
     std::vector<decomp::brep::StepBody> bodies;
@@ -127,8 +134,7 @@ Result<std::vector<FileBytes>> step_files(const std::filesystem::path& directory
         if (!part) {
             return fail(part.error());
         }
-        auto written = write_part(*part, facts.part_from_model.map(), wish, tolerance_mm, *schema,
-                                  colour_of(i), run);
+        auto written = write_part(*part, facts.part_from_model.map(), style, colour_of(i), run);
         if (!written) {
             return fail(written.error());
         }
