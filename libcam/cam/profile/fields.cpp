@@ -114,7 +114,7 @@ const Table<FdmMachine::Converter>& converter_rows() {
     return rows;
 }
 
-const Table<FdmMachine::Process>& process_rows() {
+const Table<FdmMachine::Process>& layer_rows() {
     using P = FdmMachine::Process;
     static const Table<P> rows = {
         {"layer_height_mm", &P::layer_height_mm, "mm", 0.02, 1.5, kOptional,
@@ -130,6 +130,13 @@ const Table<FdmMachine::Process>& process_rows() {
          "solid layers under each upward surface"},
         {"bottom_layers", &P::bottom_layers, "", 0, 1000, kOptional,
          "solid layers over each downward surface"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& infill_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"infill_density", &P::infill_density, "", 0, 1, kOptional,
          "share of the inside that is filled, 0 .. 1"},
         {"infill_angle_deg", &P::infill_angle, "degrees", -360, 360, kOptional,
@@ -142,6 +149,13 @@ const Table<FdmMachine::Process>& process_rows() {
          "share of the inside that is filled behind mating faces; 0: as elsewhere"},
         {"interface_infill_mm", &P::interface_infill_mm, "mm", 0, 100, kOptional,
          "how far behind mating faces that infill reaches"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& outline_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"seam", &P::seam, "", 0, 0, kOptional,
          "where outer walls begin: hidden (on mating faces, then in concave corners, above each "
          "other), aligned, rear or nearest"},
@@ -155,6 +169,13 @@ const Table<FdmMachine::Process>& process_rows() {
          "left between two parts at an upright cut; each gives half of it. A horizontal cut gets "
          "none: "
          "the part ends with a whole layer, at most half a layer off"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& support_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"support_angle_deg", &P::support_angle, "degrees", 0, 90, kOptional,
          "downward surfaces flatter than this, measured from the horizontal, get support; 0: "
          "never"},
@@ -168,6 +189,13 @@ const Table<FdmMachine::Process>& process_rows() {
          "left free between support and walls"},
         {"longest_bridge_mm", &P::longest_bridge_mm, "mm", 0, 200, kOptional,
          "longer ways over air sag and get support"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& adhesion_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"brim_width_mm", &P::brim_width_mm, "mm", 0, 50, kOptional,
          "brim around the first layer of each part against warping, 5 is usual; 0: a skirt "
          "instead"},
@@ -175,6 +203,13 @@ const Table<FdmMachine::Process>& process_rows() {
          "around all parts of a plate, to prime the nozzle"},
         {"skirt_distance_mm", &P::skirt_distance_mm, "mm", 0, 50, kOptional,
          "between parts and skirt"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& speed_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"outer_wall_speed_mm_per_s", &P::outer_wall_speed, "mm/s", 1, 1000, kOptional,
          "of the visible walls"},
         {"inner_wall_speed_mm_per_s", &P::inner_wall_speed, "mm/s", 1, 1000, kOptional,
@@ -190,6 +225,13 @@ const Table<FdmMachine::Process>& process_rows() {
         {"first_layer_speed_mm_per_s", &P::first_layer_speed, "mm/s", 1, 1000, kOptional,
          "of everything on the bed"},
         {"travel_speed_mm_per_s", &P::travel_speed, "mm/s", 1, 1000, kOptional, "between beads"},
+    };
+    return rows;
+}
+
+const Table<FdmMachine::Process>& plate_rows() {
+    using P = FdmMachine::Process;
+    static const Table<P> rows = {
         {"part_spacing_mm", &P::part_spacing_mm, "mm", 0, 100, kOptional,
          "between parts on one plate, brims included"},
         {"material", &P::material, "", 0, 0, kOptional,
@@ -379,7 +421,11 @@ std::vector<Field> fields_of(FdmSetup& setup) {
     bind(out, File::Machine, "retraction", retraction_rows(), machine.retraction);
     bind(out, File::Machine, "templates", template_rows(), machine.templates);
     bind(out, File::Machine, "converter", converter_rows(), machine.converter);
-    bind(out, File::Machine, "process", process_rows(), machine.process);
+    for (const Table<FdmMachine::Process>* rows :
+         {&layer_rows(), &infill_rows(), &outline_rows(), &support_rows(), &adhesion_rows(),
+          &speed_rows(), &plate_rows()}) {
+        bind(out, File::Machine, "process", *rows, machine.process);
+    }
     bind(out, File::Material, "material", material_rows(), setup.material);
     bind(out, File::Dialect, "dialect", dialect_rows(), setup.dialect);
     return out;
