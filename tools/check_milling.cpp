@@ -89,6 +89,32 @@ struct Sum {
     [[nodiscard]] double percent() const { return of > 0 ? 100 * area / of : 0; }
 };
 
+/// The limits of a known machine that the part breaks as it is clamped.
+std::vector<Violation> misfits_of(const Mill& mill, const Part& part, const Mill3Check& check) {
+    if (!mill.known) {
+        return {};
+    }
+    const Eigen::Affine3d turn(cam::check::frame_looking_down(check.poses[check.best].direction));
+    return cam::check::mill_misfits(
+        mill.setup.machine, mill.setup.tools,
+        decomp::mesh::bounds(decomp::mesh::transformed(part.mesh, turn)).sizes());
+}
+
+std::vector<Violation> misfits_of(const Mill& mill, const Mill4Check& check) {
+    if (!mill.known) {
+        return {};
+    }
+    return cam::check::rotary_misfits(mill.setup.machine, mill.setup.tools, check.stock.radius_mm,
+                                      check.stock.length_mm);
+}
+
+/// Whether the mill can make the part: it fits, and little is left that no tool reaches.
+bool can_make(const Mill& mill, const std::vector<Violation>& misfits,
+              const cam::check::Share& unreached) {
+    return misfits.empty() &&
+           unreached.by_area_percent <= mill.setup.machine.reach.max_unreached_percent;
+}
+
 std::vector<std::string> with_tools(std::vector<std::string> head, const Mill& mill) {
     for (const auto& tool : mill.setup.tools) {
         head.push_back(tool.name);
@@ -175,6 +201,44 @@ Json mill4_json(const Part& part, const Mill4Check& check) {
     return json;
 }
 
+std::vector<std::string> mill3_row(const Part& part, const Mill3Check& check,
+                                   const std::string& fits) {
+    const auto& best = check.poses[check.best];
+    const auto& by_normal = check.poses[check.best_by_normal];
+    std::vector<std::string> row{part.id,
+                                 std::to_string(part.mesh.triangles.size()),
+                                 percent_text(by_normal.undercut.by_area_percent),
+                                 percent_text(best.unseen.by_area_percent),
+                                 percent_text(best.base.by_area_percent),
+                                 percent_text(by_normal.undercut.by_facets_percent),
+                                 direction_text(best.direction),
+                                 best.flat_base ? "yes" : "no",
+                                 best.height_field ? "yes" : "no",
+                                 fits};
+    for (const auto& figures : check.tools) {
+        row.push_back(percent_text(figures.unreached.by_area_percent));
+    }
+    return row;
+}
+
+std::vector<std::string> mill4_row(const Part& part, const Mill4Check& check,
+                                   const std::string& fits) {
+    std::vector<std::string> row{part.id,
+                                 std::to_string(part.mesh.triangles.size()),
+                                 percent_text(check.unseen.by_facets_percent),
+                                 percent_text(check.unseen.by_area_percent),
+                                 percent_text(check.ends.by_area_percent),
+                                 percent_text(check.ends_unseen.by_area_percent),
+                                 direction_text(check.stock.axis),
+                                 "d " + decomp::decimal(2 * check.stock.radius_mm, 1) + " l " +
+                                     decomp::decimal(check.stock.length_mm, 1),
+                                 fits};
+    for (const auto& tool : check.tools) {
+        row.push_back(percent_text(tool.unreached.by_area_percent));
+    }
+    return row;
+}
+
 std::string indices_text(const cam::check::Indices& indices) {
     std::string text;
     for (std::size_t i = 0; i < indices.a_degrees.size(); ++i) {
@@ -184,6 +248,21 @@ std::string indices_text(const cam::check::Indices& indices) {
     return text + (indices.smallest
                        ? ""
                        : " not proved smallest: at least " + std::to_string(indices.at_least));
+}
+
+/// The positions of A for rays and for each tool, a line each.
+std::string indices_lines(const Part& part, const Mill4Check& check) {
+    std::string text = part.id + "  ray: " + indices_text(check.indices) + "\n";
+    for (const auto& tool : check.tools) {
+        text += part.id + "  " + tool.tool + ": " + indices_text(tool.indices) + "\n";
+    }
+    return text;
+}
+
+std::string dropped_line(const Part& part, const Json& dropped) {
+    return part.id + "  dropped " + std::to_string(dropped["facets"].get<int>()) +
+           " facets, volume " + decomp::fixed(dropped["volume_change_percent"].get<double>(), 3) +
+           " %\n";
 }
 
 Result<cam::check::Mill4Options> mill4_options(const CheckRequest& request, const Mill& mill) {
@@ -265,31 +344,12 @@ Result<Answer> check_three_axes(const CheckRequest& request, const CheckInput& i
         const auto& best = check->poses[check->best];
         const auto& by_normal = check->poses[check->best_by_normal];
         Json json = mill3_json(part, *check);
-        std::vector<Violation> misfits;
+        const std::vector<Violation> misfits = misfits_of(*mill, part, *check);
         if (mill->known) {
-            const Eigen::Affine3d turn(cam::check::frame_looking_down(best.direction));
-            misfits = cam::check::mill_misfits(
-                mill->setup.machine, mill->setup.tools,
-                decomp::mesh::bounds(decomp::mesh::transformed(part.mesh, turn)).sizes());
             json["misfits"] = violations_json(misfits);
         }
-        std::vector<std::string> row{part.id,
-                                     std::to_string(part.mesh.triangles.size()),
-                                     percent_text(by_normal.undercut.by_area_percent),
-                                     percent_text(best.unseen.by_area_percent),
-                                     percent_text(best.base.by_area_percent),
-                                     percent_text(by_normal.undercut.by_facets_percent),
-                                     direction_text(best.direction),
-                                     best.flat_base ? "yes" : "no",
-                                     best.height_field ? "yes" : "no",
-                                     fits_text(mill->known, misfits)};
-        for (const auto& figures : check->tools) {
-            row.push_back(percent_text(figures.unreached.by_area_percent));
-        }
-        table.add(std::move(row));
-        possible = possible && misfits.empty() &&
-                   check->unreached_together.by_area_percent <=
-                       mill->setup.machine.reach.max_unreached_percent;
+        table.add(mill3_row(part, *check, fits_text(mill->known, misfits)));
+        possible = possible && can_make(*mill, misfits, check->unreached_together);
         const double area = decomp::mesh::area_mm2(part.mesh);
         paper.add(by_normal.undercut.by_area_percent, area);
         unseen.add(best.unseen.by_area_percent, area);
@@ -333,31 +393,13 @@ Result<Answer> check_four_axes(const CheckRequest& request, const CheckInput& in
             return decomp::fail(check.error());
         }
         Json json = mill4_json(part, *check);
-        std::vector<Violation> misfits;
+        const std::vector<Violation> misfits = misfits_of(*mill, *check);
         if (mill->known) {
-            misfits = cam::check::rotary_misfits(mill->setup.machine, mill->setup.tools,
-                                                 check->stock.radius_mm, check->stock.length_mm);
             json["misfits"] = violations_json(misfits);
         }
-        std::vector<std::string> row{part.id,
-                                     std::to_string(part.mesh.triangles.size()),
-                                     percent_text(check->unseen.by_facets_percent),
-                                     percent_text(check->unseen.by_area_percent),
-                                     percent_text(check->ends.by_area_percent),
-                                     percent_text(check->ends_unseen.by_area_percent),
-                                     direction_text(check->stock.axis),
-                                     "d " + decomp::decimal(2 * check->stock.radius_mm, 1) + " l " +
-                                         decomp::decimal(check->stock.length_mm, 1),
-                                     fits_text(mill->known, misfits)};
-        indices += part.id + "  ray: " + indices_text(check->indices) + "\n";
-        for (const auto& tool : check->tools) {
-            row.push_back(percent_text(tool.unreached.by_area_percent));
-            indices += part.id + "  " + tool.tool + ": " + indices_text(tool.indices) + "\n";
-        }
-        table.add(std::move(row));
-        possible = possible && misfits.empty() &&
-                   check->unreached_together.by_area_percent <=
-                       mill->setup.machine.reach.max_unreached_percent;
+        table.add(mill4_row(part, *check, fits_text(mill->known, misfits)));
+        indices += indices_lines(part, *check);
+        possible = possible && can_make(*mill, misfits, check->unreached_together);
         unseen.add(check->unseen.by_area_percent, decomp::mesh::area_mm2(part.mesh));
         if (!request.drop.empty()) {
             const auto dropped = drop_unseen(request, part, *check, run);
@@ -365,9 +407,7 @@ Result<Answer> check_four_axes(const CheckRequest& request, const CheckInput& in
                 return decomp::fail(dropped.error());
             }
             json["dropped"] = *dropped;
-            indices += part.id + "  dropped " + std::to_string((*dropped)["facets"].get<int>()) +
-                       " facets, volume " +
-                       decomp::fixed((*dropped)["volume_change_percent"].get<double>(), 3) + " %\n";
+            indices += dropped_line(part, *dropped);
         }
         answer.json["parts"].push_back(json);
         if (const auto drawn = draw_rotary(request, part, *check, *options, run); !drawn) {

@@ -92,6 +92,47 @@ void add_whole(Answer& answer, const CheckInput& input, const Printer& printer) 
     answer.text += table.text() + "\n";
 }
 
+Json part_json(const decomp::part::Part& part, const FdmCheck& check) {
+    const FdmPose& best = check.poses[check.best];
+    return {{"id", part.id},
+            {"facets", part.mesh.triangles.size()},
+            {"area_mm2", decomp::mesh::area_mm2(part.mesh)},
+            {"3DPPS",
+             {{"paper_percent", check.poses[check.best_by_normal].overhang.by_area_percent},
+              {"support_percent", best.support.by_area_percent},
+              {"by_facets_percent", check.poses[check.best_by_facets].overhang.by_facets_percent}}},
+            {"best", pose_json(best)},
+            {"poses_tried", check.poses.size()}};
+}
+
+std::vector<std::string> part_row(const decomp::part::Part& part, const FdmCheck& check,
+                                  const std::string& fits) {
+    const FdmPose& best = check.poses[check.best];
+    return {part.id,
+            std::to_string(part.mesh.triangles.size()),
+            percent_text(check.poses[check.best_by_normal].overhang.by_area_percent),
+            percent_text(best.support.by_area_percent),
+            percent_text(best.bridges.by_area_percent),
+            percent_text(best.islands.by_area_percent),
+            percent_text(best.plate.by_area_percent),
+            percent_text(check.poses[check.best_by_facets].overhang.by_facets_percent),
+            base_text(best),
+            fits};
+}
+
+/// What the parts come to together.
+void add_sums(Answer& answer, const CheckInput& input, const Sums& sums) {
+    const double paper = Sums::percent(sums.overhang, sums.area);
+    const double support = Sums::percent(sums.support, sums.area);
+    Json all{{"paper_percent", paper}, {"support_percent", support}};
+    if (input.whole) {
+        all["of_whole_area_percent"] =
+            Sums::percent(sums.support, decomp::mesh::area_mm2(*input.whole));
+    }
+    answer.json["3DPPST"] = all;
+    answer.text += "\n%3DPPST " + percent_text(paper) + ", support " + percent_text(support) + "\n";
+}
+
 }  // namespace
 
 Result<Answer> check_printing(const CheckRequest& request, const CheckInput& input, Run& run) {
@@ -119,17 +160,7 @@ Result<Answer> check_printing(const CheckRequest& request, const CheckInput& inp
             return decomp::cancelled();
         }
         const FdmPose& best = check.poses[check.best];
-        const FdmPose& by_normal = check.poses[check.best_by_normal];
-        const FdmPose& by_facets = check.poses[check.best_by_facets];
-        Json json{{"id", part.id},
-                  {"facets", part.mesh.triangles.size()},
-                  {"area_mm2", decomp::mesh::area_mm2(part.mesh)},
-                  {"3DPPS",
-                   {{"paper_percent", by_normal.overhang.by_area_percent},
-                    {"support_percent", best.support.by_area_percent},
-                    {"by_facets_percent", by_facets.overhang.by_facets_percent}}},
-                  {"best", pose_json(best)},
-                  {"poses_tried", check.poses.size()}};
+        Json json = part_json(part, check);
         std::string fits = "-";
         if (printer->machine) {
             const bool fit = cam::orient::rank_builds(part, *printer->machine).front().fits();
@@ -138,14 +169,9 @@ Result<Answer> check_printing(const CheckRequest& request, const CheckInput& inp
             all_fit = all_fit && fit;
         }
         sums.area += decomp::mesh::area_mm2(part.mesh);
-        sums.overhang += by_normal.overhang.area_mm2;
+        sums.overhang += check.poses[check.best_by_normal].overhang.area_mm2;
         sums.support += best.support.area_mm2;
-        table.add(
-            {part.id, std::to_string(part.mesh.triangles.size()),
-             percent_text(by_normal.overhang.by_area_percent),
-             percent_text(best.support.by_area_percent), percent_text(best.bridges.by_area_percent),
-             percent_text(best.islands.by_area_percent), percent_text(best.plate.by_area_percent),
-             percent_text(by_facets.overhang.by_facets_percent), base_text(best), fits});
+        table.add(part_row(part, check, fits));
         if (const auto drawn = draw_printing(request, part, best.down, printer->options, run);
             !drawn) {
             return decomp::fail(drawn.error());
@@ -155,15 +181,7 @@ Result<Answer> check_printing(const CheckRequest& request, const CheckInput& inp
     }
     answer.json["parts"] = parts;
     answer.text += table.text();
-    const double paper = Sums::percent(sums.overhang, sums.area);
-    const double support = Sums::percent(sums.support, sums.area);
-    Json all{{"paper_percent", paper}, {"support_percent", support}};
-    if (input.whole) {
-        all["of_whole_area_percent"] =
-            Sums::percent(sums.support, decomp::mesh::area_mm2(*input.whole));
-    }
-    answer.json["3DPPST"] = all;
-    answer.text += "\n%3DPPST " + percent_text(paper) + ", support " + percent_text(support) + "\n";
+    add_sums(answer, input, sums);
     answer.exit_code = all_fit ? kOk : kInfeasible;
     return answer;
 }

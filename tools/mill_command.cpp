@@ -116,6 +116,80 @@ Result<std::vector<MillFile>> written_programs(const Command& command,
     return files;
 }
 
+Result<std::vector<ProvedMilling>> proofs_of(const std::vector<MillFile>& programs,
+                                             const cam::path::MillPlan& plan,
+                                             const decomp::mesh::TriMesh& part,
+                                             const cam::profile::MillSetup& setup) {
+    std::vector<ProvedMilling> proofs;
+    proofs.reserve(programs.size());
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        auto proof = prove_milling(programs[i].text, plan, i, part, setup);
+        if (!proof) {
+            return decomp::fail(proof.error());
+        }
+        proofs.push_back(std::move(*proof));
+    }
+    return proofs;
+}
+
+/// The programs and what is written beside them: the part as it was planned, proofs, the sheet.
+std::vector<MillFile> all_files(const MillSheet& sheet, const std::vector<ProvedMilling>& proofs,
+                                const decomp::mesh::TriMesh& part, const std::string& stem) {
+    std::vector<MillFile> files = sheet.programs;
+    files.push_back({sheet.part_file, decomp::io::stl_bytes(part)});
+    for (std::size_t i = 0; i < proofs.size(); ++i) {
+        const std::string& program = sheet.programs[i].name;
+        files.push_back({program + ".proof.json", proofs[i].sidecar});
+        files.push_back({fs::path(program).stem().string() + ".stock.ply", proofs[i].stock});
+    }
+    files.push_back({"setup.json", setup_json(sheet).dump(1) + "\n"});
+    files.push_back({stem + ".html", sheet_html(sheet)});
+    return files;
+}
+
+/// All or none where a file is in the way.
+decomp::Status write_files(const fs::path& directory, const std::vector<MillFile>& files,
+                           bool force) {
+    for (const MillFile& file : files) {
+        if (!force && fs::exists(directory / file.name)) {
+            return decomp::fail("file.exists", "the file exists already",
+                                (directory / file.name).string(),
+                                "choose another name, or add --force");
+        }
+    }
+    std::error_code ignored;
+    fs::create_directories(directory, ignored);
+    for (const MillFile& file : files) {
+        auto done = decomp::write_file(directory / file.name, file.text, decomp::Overwrite::Allow);
+        if (!done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Answer answer_of(const MillSheet& sheet, const std::vector<ProvedMilling>& proofs,
+                 const fs::path& directory) {
+    Answer answer;
+    answer.json["programs"] = Json::array();
+    bool passed = true;
+    for (std::size_t i = 0; i < proofs.size(); ++i) {
+        Json figures = proofs[i].figures;
+        figures["file"] = sheet.programs[i].name;
+        answer.text += (directory / sheet.programs[i].name).string() + "  " +
+                       duration_text(figures["seconds"].get<double>()) + "\n" + proofs[i].text;
+        answer.json["programs"].push_back(std::move(figures));
+        passed = passed && proofs[i].passed;
+    }
+    answer.json["warnings"] = sheet.plan->warnings;
+    answer.json["proved"] = passed;
+    answer.exit_code = passed ? kOk : kProofFailed;
+    for (const std::string& warning : sheet.plan->warnings) {
+        answer.text += "warning: " + warning + "\n";
+    }
+    return answer;
+}
+
 Result<Answer> mill(const Command& command, const Run& outer) {
     Run run = outer;
     const auto setup = cam::profile::read_mill_setup(command.input.machine, names_in(command.tools),
@@ -151,65 +225,24 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     if (!programs) {
         return decomp::fail(programs.error());
     }
-    std::vector<ProvedMilling> proofs;
-    for (std::size_t i = 0; i < programs->size(); ++i) {
-        auto proof =
-            prove_milling((*programs)[i].text, *plan, i, input->parts.front().mesh, *setup);
-        if (!proof) {
-            return decomp::fail(proof.error());
-        }
-        proofs.push_back(std::move(*proof));
+    const decomp::mesh::TriMesh& part = input->parts.front().mesh;
+    const auto proofs = proofs_of(*programs, *plan, part, *setup);
+    if (!proofs) {
+        return decomp::fail(proofs.error());
     }
     const std::string stem = command.out.stem().string();
     sheet.plan = &*plan;
     sheet.setup = &*setup;
     sheet.part_file = stem + ".part.stl";
     sheet.material = material->title;
-    sheet.programs = *programs;
-    std::vector<MillFile> files = *programs;
-    const auto stl = decomp::io::stl_bytes(input->parts.front().mesh);
-    files.push_back({sheet.part_file, stl});
-    for (std::size_t i = 0; i < proofs.size(); ++i) {
-        files.push_back({(*programs)[i].name + ".proof.json", proofs[i].sidecar});
-        files.push_back(
-            {fs::path((*programs)[i].name).stem().string() + ".stock.ply", proofs[i].stock});
-    }
-    files.push_back({"setup.json", setup_json(sheet).dump(1) + "\n"});
-    files.push_back({stem + ".html", sheet_html(sheet)});
+    sheet.programs = std::move(*programs);
     const fs::path directory = command.out.parent_path();
-    for (const MillFile& file : files) {
-        if (!command.force && fs::exists(directory / file.name)) {
-            return decomp::fail("file.exists", "the file exists already",
-                                (directory / file.name).string(),
-                                "choose another name, or add --force");
-        }
+    const auto written =
+        write_files(directory, all_files(sheet, *proofs, part, stem), command.force);
+    if (!written) {
+        return decomp::fail(written.error());
     }
-    std::error_code ignored;
-    fs::create_directories(directory, ignored);
-    Answer answer;
-    answer.json["programs"] = Json::array();
-    for (const MillFile& file : files) {
-        const auto done =
-            decomp::write_file(directory / file.name, file.text, decomp::Overwrite::Allow);
-        if (!done) {
-            return decomp::fail(done.error());
-        }
-    }
-    bool passed = true;
-    for (std::size_t i = 0; i < programs->size(); ++i) {
-        proofs[i].figures["file"] = (*programs)[i].name;
-        answer.json["programs"].push_back(proofs[i].figures);
-        answer.text += (directory / (*programs)[i].name).string() + "  " +
-                       duration_text(proofs[i].figures["seconds"].get<double>()) + "\n" +
-                       proofs[i].text;
-        passed = passed && proofs[i].passed;
-    }
-    answer.json["warnings"] = plan->warnings;
-    answer.json["proved"] = passed;
-    answer.exit_code = passed ? kOk : kProofFailed;
-    for (const std::string& warning : plan->warnings) {
-        answer.text += "warning: " + warning + "\n";
-    }
+    Answer answer = answer_of(sheet, *proofs, directory);
     answer.text += (directory / (stem + ".html")).string() + "  set-up sheet\n";
     return answer;
 }

@@ -9,8 +9,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
-#include <vector>
 
 /// The command line `hew`: every verb parses, calls one door of a library and prints; nothing else.
 namespace tools {
@@ -46,7 +46,7 @@ struct Verb {
 };
 
 /// All verbs, in the order of the help.
-[[nodiscard]] const std::vector<Verb>& verbs();
+[[nodiscard]] std::span<const Verb> verbs();
 
 Action declare_make(CLI::App& app, const Common& common);
 Action declare_decompose(CLI::App& app, const Common& common);
