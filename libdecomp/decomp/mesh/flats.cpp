@@ -25,17 +25,16 @@ std::size_t cube_cell(const Eigen::Vector3d& unit) {
     unit.cwiseAbs().maxCoeff(&axis);
     const double scale = std::abs(unit[axis]);
     const auto cell = [&](double value) {
-        return std::clamp(static_cast<int>(std::floor((value / scale + 1) / 2 * kGrid)), 0,
-                          kGrid - 1);
+        return static_cast<std::size_t>(std::clamp(
+            static_cast<int>(std::floor((value / scale + 1) / 2 * kGrid)), 0, kGrid - 1));
     };
-    const int face = 2 * axis + (unit[axis] < 0 ? 1 : 0);
-    return static_cast<std::size_t>((face * kGrid + cell(unit[(axis + 1) % 3])) * kGrid +
-                                    cell(unit[(axis + 2) % 3]));
+    const std::size_t face = 2 * static_cast<std::size_t>(axis) + (unit[axis] < 0 ? 1 : 0);
+    return (face * kGrid + cell(unit[(axis + 1) % 3])) * kGrid + cell(unit[(axis + 2) % 3]);
 }
 
 /// Mean normals of the fullest cells of the histogram, fullest first.
 std::vector<Eigen::Vector3d> peak_normals(const Facets& facets, double min_share) {
-    std::vector<Eigen::Vector3d> sums(6U * kGrid * kGrid, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> sums(std::size_t{6} * kGrid * kGrid, Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < facets.unit.size(); ++i) {
         if (facets.area_mm2[i] > 0) {
             sums[cube_cell(facets.unit[i])] += facets.area_mm2[i] * facets.unit[i];
