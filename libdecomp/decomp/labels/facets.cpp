@@ -52,20 +52,31 @@ bool link_neighbours(Facets& facets) {
 }
 
 void link_vertices(Facets& facets) {
-    facets.around_begin_.assign(facets.points.size() + 1, 0);
+    facets.fan_begin.assign(facets.points.size() + 1, 0);
     for (const auto& t : facets.corners) {
         for (const auto v : t) {
-            ++facets.around_begin_[v + 1];
+            ++facets.fan_begin[v + 1];
         }
     }
     for (std::size_t v = 0; v < facets.points.size(); ++v) {
-        facets.around_begin_[v + 1] += facets.around_begin_[v];
+        facets.fan_begin[v + 1] += facets.fan_begin[v];
     }
-    facets.around_.resize(3 * facets.count());
-    std::vector<std::uint32_t> next(facets.around_begin_.begin(), facets.around_begin_.end() - 1);
+    facets.fans.resize(3 * facets.count());
+    std::vector<std::uint32_t> next(facets.fan_begin.begin(), facets.fan_begin.end() - 1);
     for (std::uint32_t f = 0; f < facets.count(); ++f) {
         for (const auto v : facets.corners[f]) {
-            facets.around_[next[v]++] = f;
+            facets.fans[next[v]++] = f;
+        }
+    }
+}
+
+/// Appends the facets across the edges of one that are not in yet.
+void append_neighbours(const Facets& facets, std::uint32_t facet, std::vector<bool>& in,
+                       std::vector<std::uint32_t>& out) {
+    for (const auto g : facets.neighbours[facet]) {
+        if (!in[g]) {
+            in[g] = true;
+            out.push_back(g);
         }
     }
 }
@@ -89,8 +100,8 @@ Result<Facets> facets_of(const mesh::TriMesh& surface) {
         facets.area += length / 2;
         facets.normals.push_back(length > 0 ? Eigen::Vector3d(n / length)
                                             : Eigen::Vector3d::Zero());
-        facets.centres.push_back((facets.points[t[0]] + facets.points[t[1]] + facets.points[t[2]]) /
-                                 3);
+        facets.centres.emplace_back(
+            (facets.points[t[0]] + facets.points[t[1]] + facets.points[t[2]]) / 3);
     }
     facets.diagonal = mesh::diagonal_mm(surface);
     facets.unit = std::sqrt(4 * facets.area / (std::sqrt(3.0) * kReferenceTriangles));
@@ -112,12 +123,7 @@ std::vector<std::uint32_t> grown(const Facets& facets, std::span<const std::uint
     for (int ring = 0; ring < rings; ++ring) {
         const std::size_t end = out.size();
         for (; begin < end; ++begin) {
-            for (const auto g : facets.neighbours[out[begin]]) {
-                if (!in[g]) {
-                    in[g] = true;
-                    out.push_back(g);
-                }
-            }
+            append_neighbours(facets, out[begin], in, out);
         }
     }
     return out;

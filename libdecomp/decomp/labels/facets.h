@@ -32,7 +32,7 @@ struct Facets {
 
     /// The facets around a vertex, ascending.
     [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t vertex) const {
-        return {around_.data() + around_begin_[vertex], around_.data() + around_begin_[vertex + 1]};
+        return {fans.data() + fan_begin[vertex], fans.data() + fan_begin[vertex + 1]};
     }
 
     [[nodiscard]] double edge_length(std::uint32_t facet, std::size_t k) const {
@@ -40,8 +40,9 @@ struct Facets {
         return (points[t.at(k)] - points[t.at((k + 1) % 3)]).norm();
     }
 
-    std::vector<std::uint32_t> around_begin_;
-    std::vector<std::uint32_t> around_;
+    /// The facets around all vertices in a row, and where those of each vertex begin.
+    std::vector<std::uint32_t> fans;
+    std::vector<std::uint32_t> fan_begin;
 };
 
 /// @error labels.surface  the surface is empty, or not closed and manifold by its edges

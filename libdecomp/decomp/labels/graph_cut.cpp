@@ -23,6 +23,13 @@ struct CutGraph {
     std::vector<std::uint8_t> labels;
 };
 
+/// A frozen neighbour makes every label but its own dearer.
+void add_frozen_step(LabelCosts& cost, AxisLabel frozen, double step) {
+    for (std::size_t l = 0; l < kLabelCount; ++l) {
+        cost.at(l) += l == static_cast<std::size_t>(frozen) ? 0 : step;
+    }
+}
+
 CutGraph graph_of(const Energy& energy, std::span<const LabelCosts> extra,
                   std::span<const std::uint32_t> active, const Labeling& labels) {
     const Facets& facets = energy.facets();
@@ -40,15 +47,11 @@ CutGraph graph_of(const Energy& energy, std::span<const LabelCosts> extra,
         }
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t g = facets.neighbours[f].at(k);
-            if (slot[g] != kFrozen) {
-                if (f < g) {
-                    graph.edges.emplace_back(slot[f], slot[g]);
-                    graph.weights.push_back(energy.step(f, k));
-                }
-                continue;
-            }
-            for (std::size_t l = 0; l < kLabelCount; ++l) {
-                cost.at(l) += l == static_cast<std::size_t>(labels[g]) ? 0 : energy.step(f, k);
+            if (slot[g] == kFrozen) {
+                add_frozen_step(cost, labels[g], energy.step(f, k));
+            } else if (f < g) {
+                graph.edges.emplace_back(slot[f], slot[g]);
+                graph.weights.push_back(energy.step(f, k));
             }
         }
         graph.costs.push_back(cost);

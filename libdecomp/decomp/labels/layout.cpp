@@ -52,24 +52,29 @@ class Survey {
             if (out_.chart_of[seed] != kNone) {
                 continue;
             }
-            const auto id = static_cast<std::uint32_t>(out_.charts.size());
-            Chart chart;
-            chart.label = labels_[seed];
             stack.assign(1, seed);
-            out_.chart_of[seed] = id;
-            while (!stack.empty()) {
-                const std::uint32_t f = stack.back();
-                stack.pop_back();
-                chart.area += facets_.areas[f];
-                for (const auto g : facets_.neighbours[f]) {
-                    if (out_.chart_of[g] == kNone && labels_[g] == chart.label) {
-                        out_.chart_of[g] = id;
-                        stack.push_back(g);
-                    }
+            out_.charts.push_back(flood(stack));
+        }
+    }
+
+    /// The next chart: the facets of one label that hang together with the one on the stack.
+    Chart flood(std::vector<std::uint32_t>& stack) {
+        const auto id = static_cast<std::uint32_t>(out_.charts.size());
+        Chart chart;
+        chart.label = labels_[stack.back()];
+        out_.chart_of[stack.back()] = id;
+        while (!stack.empty()) {
+            const std::uint32_t f = stack.back();
+            stack.pop_back();
+            chart.area += facets_.areas[f];
+            for (const auto g : facets_.neighbours[f]) {
+                if (out_.chart_of[g] == kNone && labels_[g] == chart.label) {
+                    out_.chart_of[g] = id;
+                    stack.push_back(g);
                 }
             }
-            out_.charts.push_back(std::move(chart));
         }
+        return chart;
     }
 
     [[nodiscard]] bool is_rim(std::uint32_t f, std::uint32_t k) const {

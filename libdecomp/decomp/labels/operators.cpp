@@ -144,6 +144,43 @@ Proposal collar(const Scene& scene, const std::vector<std::uint32_t>& band, int 
     return proposal;
 }
 
+/// The same facets with one label after another; false when no more are wanted.
+bool consider_each(const Consider& consider, const std::vector<std::uint32_t>& facets,
+                   const std::vector<AxisLabel>& labels) {
+    return std::all_of(labels.begin(), labels.end(), [&](AxisLabel label) {
+        return consider({labelled(facets, label), {}, false});
+    });
+}
+
+/// Keeps a chart and its opposite apart by a strip: of a third label, of any but these two, or of
+/// a collar; false when no more are wanted.
+bool consider_strip(const Scene& scene, const Consider& consider,
+                    const std::vector<std::uint32_t>& strip, AxisLabel own) {
+    if (!consider_each(consider, strip, across_from(own))) {
+        return false;
+    }
+    Proposal neither;
+    for (const auto f : strip) {
+        neither.forbidden.emplace_back(f, own);
+        neither.forbidden.emplace_back(f, opposite(own));
+    }
+    return consider(neither) && consider(collar(scene, strip, axis_of(own)));
+}
+
+/// Deletes the small charts about a vertex; false when no more are wanted.
+bool consider_deletions(const Scene& scene, const Consider& consider, std::uint32_t vertex) {
+    const Facets& facets = scene.energy.facets();
+    std::vector<std::uint32_t> charts;
+    for (const auto f : facets.around(vertex)) {
+        charts.push_back(scene.layout.chart_of[f]);
+    }
+    sort_unique(charts);
+    return std::all_of(charts.begin(), charts.end(), [&](std::uint32_t chart) {
+        return scene.layout.charts[chart].area >= kSmallChart * facets.area ||
+               consider(deletion(scene, chart));
+    });
+}
+
 class ChartProposals {
   public:
     ChartProposals(const Scene& scene, const Consider& consider, std::uint32_t chart)
@@ -202,12 +239,18 @@ class ChartProposals {
         }
         for (const auto& seam : seams) {
             for (int rings = 0; rings <= kWidestStrip; ++rings) {
-                const auto band = grown(facets_, seam, scaled_rings(facets_, rings));
-                for (int axis = 0; axis < 3; ++axis) {
-                    if (!consider_(collar(scene_, band, axis))) {
-                        return false;
-                    }
+                if (!collar_about_any_axis(grown(facets_, seam, scaled_rings(facets_, rings)))) {
+                    return false;
                 }
+            }
+        }
+        return true;
+    }
+
+    bool collar_about_any_axis(const std::vector<std::uint32_t>& band) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!consider_(collar(scene_, band, axis))) {
+                return false;
             }
         }
         return true;
@@ -281,17 +324,7 @@ void propose_for_opposites(const Scene& scene, const Consider& consider) {
         std::vector<std::uint32_t> seam = both_sides(facets, boundary);
         for (int rings = 0; rings <= kWidestStrip; ++rings) {
             const auto strip = grown(facets, seam, scaled_rings(facets, rings));
-            for (const AxisLabel label : across_from(own)) {
-                if (!consider({labelled(strip, label), {}, false})) {
-                    return;
-                }
-            }
-            Proposal neither;
-            for (const auto f : strip) {
-                neither.forbidden.emplace_back(f, own);
-                neither.forbidden.emplace_back(f, opposite(own));
-            }
-            if (!consider(neither) || !consider(collar(scene, strip, axis_of(own)))) {
+            if (!consider_strip(scene, consider, strip, own)) {
                 return;
             }
         }
@@ -308,10 +341,8 @@ void propose_for_corners(const Scene& scene, const Consider& consider) {
     for (const auto vertex : scene.layout.bad_corners) {
         for (const double radius : kCornerRadii) {
             const auto here = disc(facets, vertex, radius * facets.unit);
-            for (const AxisLabel label : labels_at(scene, vertex)) {
-                if (!consider({labelled(here, label), {}, false})) {
-                    return;
-                }
+            if (!consider_each(consider, here, labels_at(scene, vertex))) {
+                return;
             }
         }
     }
@@ -325,22 +356,12 @@ void propose_for_turns(const Scene& scene, const Consider& consider) {
         tried.insert(tried.end(), around.begin(), around.end());
         for (const double radius : kTurnRadii) {
             const auto here = disc(facets, turn.vertex, radius * facets.unit);
-            for (const AxisLabel label : tried) {
-                if (!consider({labelled(here, label), {}, false})) {
-                    return;
-                }
-            }
-        }
-        std::vector<std::uint32_t> charts;
-        for (const auto f : facets.around(turn.vertex)) {
-            charts.push_back(scene.layout.chart_of[f]);
-        }
-        sort_unique(charts);
-        for (const auto chart : charts) {
-            if (scene.layout.charts[chart].area < kSmallChart * facets.area &&
-                !consider(deletion(scene, chart))) {
+            if (!consider_each(consider, here, tried)) {
                 return;
             }
+        }
+        if (!consider_deletions(scene, consider, turn.vertex)) {
+            return;
         }
     }
 }

@@ -161,6 +161,15 @@ class Search {
         return &seeds_;
     }
 
+    /// Where a chart goes, what earlier changes laid on the other labels must not keep it.
+    static void cap_others(LabelCosts& extra, AxisLabel label) {
+        for (std::size_t l = 0; l < kLabelCount; ++l) {
+            if (l != static_cast<std::size_t>(label)) {
+                extra.at(l) = std::min(extra.at(l), kDeletionCap);
+            }
+        }
+    }
+
     static std::vector<std::uint32_t> apply(const Proposal& proposal, State& state) {
         std::vector<std::uint32_t> seeds;
         for (const auto& [f, label] : proposal.forced) {
@@ -175,11 +184,7 @@ class Search {
             LabelCosts& extra = state.extra[f];
             extra.at(static_cast<std::size_t>(label)) += kForce;
             if (proposal.deletes) {
-                for (std::size_t l = 0; l < kLabelCount; ++l) {
-                    if (l != static_cast<std::size_t>(label)) {
-                        extra.at(l) = std::min(extra.at(l), kDeletionCap);
-                    }
-                }
+                cap_others(extra, label);
             }
             seeds.push_back(f);
         }
