@@ -14,12 +14,18 @@ namespace {
 constexpr int kSurfacePasses = 20;
 constexpr int kInnerPasses = 40;
 
+/// The corners that the six edges of a tet join.
+constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 Edge edge_of(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 struct Incidence {
     Edge edge{};
     std::uint32_t element = 0;
 
+    // clang-tidy 14 takes the 0 inside a defaulted comparison for a null pointer.
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     auto operator<=>(const Incidence&) const = default;
 };
 
@@ -62,10 +68,8 @@ std::vector<Incidence> tet_edges(const std::vector<tets::Tet>& tets) {
     std::vector<Incidence> out;
     out.reserve(6 * tets.size());
     for (std::uint32_t t = 0; t < tets.size(); ++t) {
-        for (std::size_t a = 0; a < 4; ++a) {
-            for (std::size_t b = a + 1; b < 4; ++b) {
-                out.push_back({edge_of(tets[t].at(a), tets[t].at(b)), t});
-            }
+        for (const auto& [a, b] : kTetEdges) {
+            out.push_back({edge_of(tets[t].at(a), tets[t].at(b)), t});
         }
     }
     return out;
@@ -225,12 +229,35 @@ void append_caught_edges(const LabelledTets& tets, std::vector<Edge>& out) {
             std::sort(face.begin(), face.end());
             outer.at(k) = std::binary_search(facets.begin(), facets.end(), face);
         }
-        for (std::size_t a = 0; a < 4; ++a) {
-            for (std::size_t b = a + 1; b < 4; ++b) {
-                if (outer.at(a) && outer.at(b)) {
-                    out.push_back(edge_of(tet.at(a), tet.at(b)));
-                }
+        for (const auto& [a, b] : kTetEdges) {
+            if (outer.at(a) && outer.at(b)) {
+                out.push_back(edge_of(tet.at(a), tet.at(b)));
             }
+        }
+    }
+}
+
+/// The edges of tets whose ends share a coordinate.
+std::vector<Edge> sharing_edges(const LabelledTets& tets) {
+    const Unknowns unknowns = unknowns_of(tets);
+    std::vector<Edge> out;
+    for (const tets::Tet& tet : tets.mesh.tets) {
+        for (const auto& [a, b] : kTetEdges) {
+            const Edge edge = edge_of(tet.at(a), tet.at(b));
+            if (unknowns.shared(edge[0], edge[1], 0) || unknowns.shared(edge[0], edge[1], 1) ||
+                unknowns.shared(edge[0], edge[1], 2)) {
+                out.push_back(edge);
+            }
+        }
+    }
+    return out;
+}
+
+/// The three edges of the face opposite to corner k.
+void append_opposite_edges(const tets::Tet& tet, std::size_t k, std::vector<Edge>& out) {
+    for (const auto& [a, b] : kTetEdges) {
+        if (a != k && b != k) {
+            out.push_back(edge_of(tet.at(a), tet.at(b)));
         }
     }
 }
@@ -247,21 +274,8 @@ std::size_t split_bound_edges(LabelledTets& tets) {
         }
     }
     for (int pass = 0; pass < kInnerPasses; ++pass) {
-        const Unknowns unknowns = unknowns_of(tets);
         const std::vector<Edge> surface = sorted_surface_edges(tets);
-        std::vector<Edge> bound;
-        for (const tets::Tet& tet : tets.mesh.tets) {
-            for (std::size_t a = 0; a < 4; ++a) {
-                for (std::size_t b = a + 1; b < 4; ++b) {
-                    const Edge edge = edge_of(tet.at(a), tet.at(b));
-                    if (unknowns.shared(edge[0], edge[1], 0) ||
-                        unknowns.shared(edge[0], edge[1], 1) ||
-                        unknowns.shared(edge[0], edge[1], 2)) {
-                        bound.push_back(edge);
-                    }
-                }
-            }
-        }
+        std::vector<Edge> bound = sharing_edges(tets);
         append_caught_edges(tets, bound);
         std::erase_if(bound, [&](const Edge& edge) {
             return std::binary_search(surface.begin(), surface.end(), edge);
@@ -285,15 +299,8 @@ std::size_t split_about_corners(LabelledTets& tets) {
     std::vector<Edge> opposite;
     for (const tets::Tet& tet : tets.mesh.tets) {
         for (std::size_t k = 0; k < 4; ++k) {
-            if (std::popcount(sides[tet.at(k)]) < 3) {
-                continue;
-            }
-            for (std::size_t a = 0; a < 4; ++a) {
-                for (std::size_t b = a + 1; b < 4; ++b) {
-                    if (a != k && b != k) {
-                        opposite.push_back(edge_of(tet.at(a), tet.at(b)));
-                    }
-                }
+            if (std::popcount(sides[tet.at(k)]) >= 3) {
+                append_opposite_edges(tet, k, opposite);
             }
         }
     }

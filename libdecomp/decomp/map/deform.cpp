@@ -31,6 +31,8 @@ std::vector<Bend> bends_of(const mesh::TriMesh& surface) {
         std::array<std::uint32_t, 2> edge{};
         std::uint32_t triangle = 0;
 
+        // clang-tidy 14 takes the 0 inside a defaulted comparison for a null pointer.
+        // NOLINTNEXTLINE(modernize-use-nullptr)
         auto operator<=>(const Side&) const = default;
     };
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,71 @@ constexpr double kLeastDeterminant = 1e-9;  // of a tet behind the barrier
 double rough_cube_root(double value) {
     constexpr std::uint64_t kBias = 0x2A9F7893'782DA1CEULL;
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) / 3 + kBias);
+}
+
+constexpr std::size_t kLanes = FoldoverEnergy::kLanes;
+using Lane = FoldoverEnergy::Lane;
+using Matrices = std::array<Lane, 9>;  // row-major
+
+/// What the energy takes from the Jacobians of the eight tets.
+struct Invariants {
+    Matrices cofactors;  ///< the derivative of det
+    Lane det;
+    Lane norm;  ///< squared
+};
+
+inline void find_invariants(const Matrices& j, Invariants& out) {
+    Matrices& c = out.cofactors;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        c[0][i] = j[4][i] * j[8][i] - j[5][i] * j[7][i];
+        c[1][i] = j[5][i] * j[6][i] - j[3][i] * j[8][i];
+        c[2][i] = j[3][i] * j[7][i] - j[4][i] * j[6][i];
+        c[3][i] = j[2][i] * j[7][i] - j[1][i] * j[8][i];
+        c[4][i] = j[0][i] * j[8][i] - j[2][i] * j[6][i];
+        c[5][i] = j[1][i] * j[6][i] - j[0][i] * j[7][i];
+        c[6][i] = j[1][i] * j[5][i] - j[2][i] * j[4][i];
+        c[7][i] = j[2][i] * j[3][i] - j[0][i] * j[5][i];
+        c[8][i] = j[0][i] * j[4][i] - j[1][i] * j[3][i];
+        out.det[i] = j[0][i] * c[0][i] + j[1][i] * c[1][i] + j[2][i] * c[2][i];
+        double sum = 0;
+        for (std::size_t e = 0; e < 9; ++e) {
+            sum += j[e][i] * j[e][i];
+        }
+        out.norm[i] = sum;
+    }
+}
+
+inline void find_cube_roots(const Lane& values, Lane& roots) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        roots[i] = rough_cube_root(values[i]);
+    }
+    for (int step = 0; step < 3; ++step) {  // Halley: 5e-2, 8e-5, 4e-13, then rounding
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const double cube = roots[i] * roots[i] * roots[i];
+            roots[i] *= (cube + 2 * values[i]) / (2 * cube + values[i]);
+        }
+    }
+}
+
+/// Adds row r of the derivative by J to the derivative by the unknowns.
+inline void scatter_row(const FoldoverEnergy::Block& block, const Matrices& stress, std::size_t r,
+                        double* out) {
+    std::array<Lane, 3> push;  // on corners 1, 2, 3 along axis r
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            double sum = 0;
+            for (std::size_t e = 0; e < 3; ++e) {
+                sum += stress[3 * r + e][i] * block.inverse[3 * k + e][i];
+            }
+            push[k][i] = sum;
+        }
+    }
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        out[block.unknowns[r][i]] -= push[0][i] + push[1][i] + push[2][i];
+        out[block.unknowns[3 + r][i]] += push[0][i];
+        out[block.unknowns[6 + r][i]] += push[1][i];
+        out[block.unknowns[9 + r][i]] += push[2][i];
+    }
 }
 
 }  // namespace
@@ -40,9 +106,10 @@ FoldoverEnergy::FoldoverEnergy(std::span<const Eigen::Vector3d> shape,
                 shape[tets[source].at(static_cast<std::size_t>(k) + 1)] - shape[tets[source][0]];
         }
         const Eigen::Matrix3d inverse = edges.inverse();
-        for (int r = 0; r < 3; ++r) {
-            for (int c = 0; c < 3; ++c) {
-                block.inverse.at(static_cast<std::size_t>(3 * r + c)).at(lane) = inverse(r, c);
+        for (std::size_t r = 0; r < 3; ++r) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                block.inverse.at(3 * r + c).at(lane) =
+                    inverse(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
             }
         }
         for (std::size_t u = 0; u < 12; ++u) {
@@ -89,25 +156,12 @@ double FoldoverEnergy::operator()(const Eigen::VectorXd& x, double eps,
     for (const Block& block : blocks_) {
         std::array<Lane, 9> j;
         jacobians(block, x, j);
-        std::array<Lane, 9> c;  // cofactors: the derivative of det
-        Lane det;
-        Lane norm;
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            c[0][i] = j[4][i] * j[8][i] - j[5][i] * j[7][i];
-            c[1][i] = j[5][i] * j[6][i] - j[3][i] * j[8][i];
-            c[2][i] = j[3][i] * j[7][i] - j[4][i] * j[6][i];
-            c[3][i] = j[2][i] * j[7][i] - j[1][i] * j[8][i];
-            c[4][i] = j[0][i] * j[8][i] - j[2][i] * j[6][i];
-            c[5][i] = j[1][i] * j[6][i] - j[0][i] * j[7][i];
-            c[6][i] = j[1][i] * j[5][i] - j[2][i] * j[4][i];
-            c[7][i] = j[2][i] * j[3][i] - j[0][i] * j[5][i];
-            c[8][i] = j[0][i] * j[4][i] - j[1][i] * j[3][i];
-            det[i] = j[0][i] * c[0][i] + j[1][i] * c[1][i] + j[2][i] * c[2][i];
-            double sum = 0;
-            for (std::size_t e = 0; e < 9; ++e) {
-                sum += j[e][i] * j[e][i];
-            }
-            norm[i] = sum;
+        Invariants invariants;
+        find_invariants(j, invariants);
+        const auto& [c, det, norm] = invariants;
+        if (eps <= 0 && std::any_of(det.begin(), det.end(),
+                                    [](double d) { return !(d > kLeastDeterminant); })) {
+            return std::numeric_limits<double>::infinity();
         }
         Lane chi;
         Lane slope;  // d chi / d det
@@ -118,18 +172,7 @@ double FoldoverEnergy::operator()(const Eigen::VectorXd& x, double eps,
             slope[i] = 0.5 + det[i] / (2 * root);
         }
         Lane third;
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            if (eps <= 0 && !(det[i] > kLeastDeterminant)) {
-                return std::numeric_limits<double>::infinity();
-            }
-            third[i] = rough_cube_root(chi[i]);
-        }
-        for (int step = 0; step < 3; ++step) {  // Halley: 5e-2, 8e-5, 4e-13, then rounding
-            for (std::size_t i = 0; i < kLanes; ++i) {
-                const double cube = third[i] * third[i] * third[i];
-                third[i] *= (cube + 2 * chi[i]) / (2 * cube + chi[i]);
-            }
-        }
+        find_cube_roots(chi, third);
         Lane scale_j;
         Lane scale_c;
         for (std::size_t i = 0; i < kLanes; ++i) {
@@ -142,24 +185,14 @@ double FoldoverEnergy::operator()(const Eigen::VectorXd& x, double eps,
             scale_c[i] = w * (kTheta * (2 * det[i] - h * slope[i]) / chi[i] -
                               (1 - kTheta) * 2 / 3 * f * slope[i] / chi[i]);
         }
-        for (std::size_t r = 0; r < 3; ++r) {
-            std::array<Lane, 3> push;  // on corners 1, 2, 3 along axis r
-            for (std::size_t k = 0; k < 3; ++k) {
-                for (std::size_t i = 0; i < kLanes; ++i) {
-                    double sum = 0;
-                    for (std::size_t e = 0; e < 3; ++e) {
-                        sum += (scale_j[i] * j[3 * r + e][i] + scale_c[i] * c[3 * r + e][i]) *
-                               block.inverse[3 * k + e][i];
-                    }
-                    push[k][i] = sum;
-                }
-            }
+        Matrices stress;  // the derivative of the energy by J
+        for (std::size_t e = 0; e < 9; ++e) {
             for (std::size_t i = 0; i < kLanes; ++i) {
-                out[block.unknowns[r][i]] -= push[0][i] + push[1][i] + push[2][i];
-                out[block.unknowns[3 + r][i]] += push[0][i];
-                out[block.unknowns[6 + r][i]] += push[1][i];
-                out[block.unknowns[9 + r][i]] += push[2][i];
+                stress[e][i] = scale_j[i] * j[e][i] + scale_c[i] * c[e][i];
             }
+        }
+        for (std::size_t r = 0; r < 3; ++r) {
+            scatter_row(block, stress, r, out);
         }
     }
     return energy;

@@ -22,6 +22,16 @@ using TetUnknowns = std::array<std::uint32_t, 12>;
 /// a rotation. Tets are worked on in blocks so that the compiler can use vector registers.
 class FoldoverEnergy {
   public:
+    static constexpr std::size_t kLanes = 8;
+    using Lane = std::array<double, kLanes>;
+
+    /// Eight tets: inverse edge matrices of the shape, weights, unknowns.
+    struct Block {
+        std::array<Lane, 9> inverse{};  ///< row-major
+        Lane weight{};
+        std::array<std::array<std::uint32_t, kLanes>, 12> unknowns{};
+    };
+
     /// @param shape     points of the shape; every tet positive
     /// @param unknowns  one row for each tet
     FoldoverEnergy(std::span<const Eigen::Vector3d> shape, std::span<const tets::Tet> tets,
@@ -39,16 +49,6 @@ class FoldoverEnergy {
     [[nodiscard]] Determinants determinants(const Eigen::VectorXd& x) const;
 
   private:
-    static constexpr std::size_t kLanes = 8;
-    using Lane = std::array<double, kLanes>;
-
-    /// Eight tets: inverse edge matrices of the shape, weights, unknowns.
-    struct Block {
-        std::array<Lane, 9> inverse{};  ///< row-major
-        Lane weight{};
-        std::array<std::array<std::uint32_t, kLanes>, 12> unknowns{};
-    };
-
     /// J of the eight tets at x, row-major.
     static void jacobians(const Block& block, const Eigen::VectorXd& x, std::array<Lane, 9>& j);
 

@@ -39,6 +39,64 @@ double epsilon_of(double least_determinant) {
                : std::sqrt(kFloor * kFloor + kShare * least_determinant * least_determinant);
 }
 
+template <class Element>
+void mark(const Element& corners, std::vector<char>& marks) {
+    for (const std::uint32_t corner : corners) {
+        marks[corner] = 1;
+    }
+}
+
+/// Marks the points of flipped tets, and those within `rings` of them.
+std::vector<char> near_flips(const std::vector<Eigen::Vector3d>& at,
+                             const std::vector<tets::Tet>& tets, int rings) {
+    std::vector<char> near(at.size(), 0);
+    for (const tets::Tet& tet : tets) {
+        if (!(tets::six_volumes(at, tet) > 0)) {
+            mark(tet, near);
+        }
+    }
+    for (int ring = 0; ring < rings; ++ring) {
+        std::vector<char> next = near;
+        for (const tets::Tet& tet : tets) {
+            if (std::any_of(tet.begin(), tet.end(), [&](auto c) { return near[c] != 0; })) {
+                mark(tet, next);
+            }
+        }
+        near = std::move(next);
+    }
+    return near;
+}
+
+using Neighbours = std::vector<std::vector<std::uint32_t>>;
+
+/// Of the points marked as near: of surface points along the surface, of inner points in the
+/// volume; as often as triangles or tets say so.
+Neighbours neighbours_of(const LabelledTets& tets, const std::vector<char>& near) {
+    std::vector<char> outer(near.size(), 0);
+    for (const mesh::Triangle& t : tets.facets) {
+        mark(t, outer);
+    }
+    Neighbours neighbours(near.size());
+    const auto connect = [&](std::uint32_t a, std::uint32_t b, bool surface) {
+        if (a != b && near[a] != 0 && (outer[a] != 0) == surface) {
+            neighbours[a].push_back(b);
+        }
+    };
+    for (const mesh::Triangle& t : tets.facets) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            connect(t.at(k), t.at((k + 1) % 3), true);
+        }
+    }
+    for (const tets::Tet& tet : tets.mesh.tets) {
+        for (const std::uint32_t a : tet) {
+            for (const std::uint32_t b : tet) {
+                connect(a, b, false);
+            }
+        }
+    }
+    return neighbours;
+}
+
 /// One map in the making.
 class Untangler {
   public:
@@ -88,75 +146,18 @@ class Untangler {
     /// neighbours, chart by chart in its plane: where a triangle of a chart is inverted, the energy
     /// pulls both its base and its height to zero and cannot choose which one to turn.
     void relax(int rings) {
-        const std::size_t points = tets_.mesh.points.size();
+        const std::vector<char> near = near_flips(pair().polycube, tets_.mesh.tets, rings);
+        const Neighbours neighbours = neighbours_of(tets_, near);
         std::vector<std::uint32_t> sharers(unknowns_.count, 0);
         for (const auto& row : unknowns_.of_point) {
             for (const std::uint32_t u : row) {
                 ++sharers[u];
             }
         }
-        const std::vector<Eigen::Vector3d> at = pair().polycube;
-        std::vector<char> near(points, 0);
-        for (const tets::Tet& tet : tets_.mesh.tets) {
-            if (!(tets::six_volumes(at, tet) > 0)) {
-                for (const std::uint32_t corner : tet) {
-                    near[corner] = 1;
-                }
-            }
-        }
-        for (int ring = 0; ring < rings; ++ring) {
-            std::vector<char> next = near;
-            for (const tets::Tet& tet : tets_.mesh.tets) {
-                if (std::any_of(tet.begin(), tet.end(), [&](auto c) { return near[c] != 0; })) {
-                    for (const std::uint32_t corner : tet) {
-                        next[corner] = 1;
-                    }
-                }
-            }
-            near = std::move(next);
-        }
-        // Neighbours of surface points along the surface, of inner points in the volume.
-        std::vector<char> outer(points, 0);
-        for (const mesh::Triangle& t : tets_.facets) {
-            for (const std::uint32_t corner : t) {
-                outer[corner] = 1;
-            }
-        }
-        std::vector<std::vector<std::uint32_t>> neighbours(points);
-        const auto connect = [&](std::uint32_t a, std::uint32_t b, bool surface) {
-            if (near[a] != 0 && (outer[a] != 0) == surface) {
-                neighbours[a].push_back(b);
-            }
-        };
-        for (const mesh::Triangle& t : tets_.facets) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                connect(t.at(k), t.at((k + 1) % 3), true);
-            }
-        }
-        for (const tets::Tet& tet : tets_.mesh.tets) {
-            for (std::size_t a = 0; a < 4; ++a) {
-                for (std::size_t b = 0; b < 4; ++b) {
-                    if (a != b) {
-                        connect(tet.at(a), tet.at(b), false);
-                    }
-                }
-            }
-        }
         for (int sweep = 0; sweep < kSweeps; ++sweep) {
-            for (std::size_t p = 0; p < points; ++p) {
-                if (near[p] == 0 || neighbours[p].empty()) {
-                    continue;
-                }
-                for (std::size_t d = 0; d < 3; ++d) {
-                    const std::uint32_t mine = unknowns_.of_point[p].at(d);
-                    if (sharers[mine] > 1) {
-                        continue;  // a whole chart's
-                    }
-                    double sum = 0;
-                    for (const std::uint32_t q : neighbours[p]) {
-                        sum += x_[unknowns_.of_point[q].at(d)];
-                    }
-                    x_[mine] = sum / static_cast<double>(neighbours[p].size());
+            for (std::size_t p = 0; p < near.size(); ++p) {
+                if (near[p] != 0 && !neighbours[p].empty()) {
+                    move_to_mean(p, neighbours[p], sharers);
                 }
             }
         }
@@ -176,6 +177,22 @@ class Untangler {
     [[nodiscard]] int iterations() const { return iterations_; }
 
   private:
+    /// Along the axes in which a point is not bound to a chart.
+    void move_to_mean(std::size_t point, const std::vector<std::uint32_t>& neighbours,
+                      const std::vector<std::uint32_t>& sharers) {
+        for (std::size_t d = 0; d < 3; ++d) {
+            const std::uint32_t mine = unknowns_.of_point[point].at(d);
+            if (sharers[mine] > 1) {
+                continue;  // a whole chart's
+            }
+            double sum = 0;
+            for (const std::uint32_t q : neighbours) {
+                sum += x_[unknowns_.of_point[q].at(d)];
+            }
+            x_[mine] = sum / static_cast<double>(neighbours.size());
+        }
+    }
+
     LabelledTets tets_;
     MapOptions options_;
     Unknowns unknowns_;
