@@ -180,7 +180,7 @@ int in_circle(const Cells& cells, Projection projection, const std::array<std::i
     }
     const double size =
         spread + std::max(std::abs(origin[projection.u]), std::abs(origin[projection.v]));
-    const double near = circle_determinant<double>(d);
+    const auto near = circle_determinant<double>(d);
     if (std::abs(near) > kCircleFilter * size * spread * spread * spread) {
         return near > 0 ? 1 : -1;
     }

@@ -20,11 +20,12 @@ std::vector<std::int32_t> pinched_edges(const Cells& cells) {
     for (const Face& face : cells.faces) {
         cells.expand(face, leaves);
         for (const Ref leaf : leaves) {
-            if (faces_at[static_cast<std::size_t>(edge_of(leaf))] > 2) {
-                uses.emplace_back(edge_of(leaf), face.inside);
-                if (face.outside >= 0) {
-                    uses.emplace_back(edge_of(leaf), face.outside);
-                }
+            if (faces_at[static_cast<std::size_t>(edge_of(leaf))] <= 2) {
+                continue;
+            }
+            uses.emplace_back(edge_of(leaf), face.inside);
+            if (face.outside >= 0) {
+                uses.emplace_back(edge_of(leaf), face.outside);
             }
         }
     }

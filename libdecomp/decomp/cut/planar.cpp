@@ -216,8 +216,7 @@ class Arrangement {
             ->second;
     }
 
-    /// Spreads the windings from the outside; crossing a constraint from its left to its right
-    /// takes its turns away.
+    /// Spreads the windings from the outside.
     Status flood() {
         std::vector<Delaunay::Face_handle> open{delaunay_.infinite_face()};
         open.front()->info().seen = true;
@@ -225,32 +224,46 @@ class Arrangement {
             const Delaunay::Face_handle f = open.back();
             open.pop_back();
             for (int i = 0; i < 3; ++i) {
-                const Delaunay::Face_handle g = f->neighbor(i);
-                Winding across = f->info();
-                across.seen = true;
-                if (f->is_constrained(i)) {
-                    const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
-                    const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
-                    const auto found = constraints_.find(std::minmax(tail, head));
-                    if (found == constraints_.end()) {
-                        return crossing("a vertex lies on an edge of the cross-section");
-                    }
-                    const int sign = tail < head ? 1 : -1;
-                    across.above -= sign * found->second.above;
-                    across.below -= sign * found->second.below;
-                }
-                if (!g->info().seen) {
-                    if (!across.sound()) {
-                        return crossing("the cross-section overlaps itself");
-                    }
-                    g->info() = across;
-                    open.push_back(g);
-                } else if (g->info().above != across.above || g->info().below != across.below) {
-                    return crossing("the cross-section is not closed");
+                if (Status step = flood_across(f, i, open); !step) {
+                    return step;
                 }
             }
         }
         return {};
+    }
+
+    /// Crossing a constraint from its left to its right takes its turns away.
+    Status flood_across(Delaunay::Face_handle f, int i, std::vector<Delaunay::Face_handle>& open) {
+        Winding across = f->info();
+        across.seen = true;
+        if (f->is_constrained(i)) {
+            const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
+            const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
+            const auto found = constraints_.find(std::minmax(tail, head));
+            if (found == constraints_.end()) {
+                return crossing("a vertex lies on an edge of the cross-section");
+            }
+            const int sign = tail < head ? 1 : -1;
+            across.above -= sign * found->second.above;
+            across.below -= sign * found->second.below;
+        }
+        const Delaunay::Face_handle g = f->neighbor(i);
+        if (!g->info().seen) {
+            if (!across.sound()) {
+                return crossing("the cross-section overlaps itself");
+            }
+            g->info() = across;
+            open.push_back(g);
+        } else if (g->info().above != across.above || g->info().below != across.below) {
+            return crossing("the cross-section is not closed");
+        }
+        return {};
+    }
+
+    /// The edge of a constraint, turned to begin at `tail`.
+    [[nodiscard]] Ref constraint_from(std::int32_t tail, std::int32_t head) const {
+        const std::int32_t edge = constraints_.find(std::minmax(tail, head))->second.edge;
+        return 2 * edge + (cells_.edges[static_cast<std::size_t>(edge)].from == tail ? 0 : 1);
     }
 
     PlanarPiece piece_from(Delaunay::Face_handle start, int index) {
@@ -264,21 +277,16 @@ class Arrangement {
             open.pop_back();
             for (int i = 0; i < 3; ++i) {
                 used.push_back(f->vertex(i)->point().vertex);
-                if (!f->is_constrained(i)) {
-                    const Delaunay::Face_handle g = f->neighbor(i);
-                    if (g->info().piece < 0) {
-                        g->info().piece = index;
-                        open.push_back(g);
-                    }
-                    continue;
+                if (f->is_constrained(i)) {
+                    const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
+                    const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
+                    piece.loop.push_back(constraint_from(tail, head));
+                    on_edges.push_back(tail);
+                    on_edges.push_back(head);
+                } else if (const Delaunay::Face_handle g = f->neighbor(i); g->info().piece < 0) {
+                    g->info().piece = index;
+                    open.push_back(g);
                 }
-                const std::int32_t tail = f->vertex(Delaunay::ccw(i))->point().vertex;
-                const std::int32_t head = f->vertex(Delaunay::cw(i))->point().vertex;
-                const std::int32_t edge = constraints_.find(std::minmax(tail, head))->second.edge;
-                piece.loop.push_back(
-                    2 * edge + (cells_.edges[static_cast<std::size_t>(edge)].from == tail ? 0 : 1));
-                on_edges.push_back(tail);
-                on_edges.push_back(head);
             }
         }
         std::sort(piece.loop.begin(), piece.loop.end());
@@ -367,6 +375,7 @@ Result<std::vector<VertexTriangle>> triangles_of(const Cells& cells, const Face&
     cells.expand(face, leaves);
     if (!face.carrier.is_plane) {
         std::vector<std::int32_t> polygon;
+        polygon.reserve(leaves.size());
         for (const Ref leaf : leaves) {
             polygon.push_back(cells.tail(leaf));
         }

@@ -42,7 +42,7 @@ F doubled_area(const Cells& cells, Projection projection, const std::vector<Ref>
                const PointOf& point_of) {
     const auto u = static_cast<std::size_t>(projection.u);
     const auto v = static_cast<std::size_t>(projection.v);
-    const Vec<F> origin = point_of(cells.tail(leaves.front()));
+    const Vec<F>& origin = point_of(cells.tail(leaves.front()));
     F sum(0);
     for (const Ref leaf : leaves) {
         const Vec<F> a = minus<F>(point_of(cells.tail(leaf)), origin);
@@ -63,7 +63,7 @@ F cone(const Cells& cells, const FaceSide& side, const Vec<F>& apex, std::vector
     const auto axis = static_cast<std::size_t>(3 - projection.u - projection.v);
     const bool upward = projection.v == (projection.u + 1) % 3;
     const ExactPlane<F> plane = exact_plane<F>(cells, face.carrier);
-    const Vec<F> foot = point_of(cells.tail(leaves.front()));
+    const Vec<F>& foot = point_of(cells.tail(leaves.front()));
     const F height = dot<F>(plane.normal, minus<F>(foot, apex));
     const F area = doubled_area<F>(cells, projection, leaves, point_of);
     const F six = F(height * area / plane.normal[axis]);
@@ -86,7 +86,7 @@ Approximation approximate(const Cells& cells, const std::vector<FaceSide>& sides
     const Vec<double> apex = point_of(cells.tail(leaves.front()));
     double rest = 0;  // Neumaier's compensation
     for (const FaceSide& side : sides) {
-        const double term = cone<double>(cells, side, apex, leaves, point_of);
+        const auto term = cone<double>(cells, side, apex, leaves, point_of);
         const double total = out.six_volumes + term;
         rest += std::abs(out.six_volumes) >= std::abs(term) ? (out.six_volumes - total) + term
                                                             : (term - total) + out.six_volumes;
