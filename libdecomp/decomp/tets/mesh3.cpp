@@ -84,7 +84,7 @@ Result<TetMesh> mesh3_tets(const mesh::TriMesh& surface, double edge_mm) {
                                 CGAL::parameters::facet_distance = kFacetDistance * edge_mm,
                                 CGAL::parameters::cell_radius_edge_ratio = kRadiusToEdge,
                                 CGAL::parameters::cell_size = kCellSize * edge_mm);
-        const Complex complex =
+        const auto complex =
             CGAL::make_mesh_3<Complex>(domain, criteria, CGAL::parameters::no_perturb(),
                                        CGAL::parameters::no_exude(), CGAL::parameters::manifold());
         TetMesh mesh = tets_of(complex);
