@@ -83,6 +83,19 @@ void mark_flipped(CellComplex& complex) {
     complex.flipped_share /= complex.volume_mm3 > 0 ? complex.volume_mm3 : 1;
 }
 
+/// The corners of a tet but one, ascending.
+std::array<std::uint32_t, 3> sorted_face(const tets::Tet& tet, std::size_t skip) {
+    std::array<std::uint32_t, 3> out{};
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k != skip) {
+            out.at(n++) = tet.at(k);
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
 std::vector<InnerFace> inner_faces(const CellComplex& complex) {
     struct Half {
         std::array<std::uint32_t, 3> corners;
@@ -94,15 +107,7 @@ std::vector<InnerFace> inner_faces(const CellComplex& complex) {
     for (std::uint32_t i = 0; i < complex.tets.size(); ++i) {
         const tets::Tet& t = complex.tets[i].corners;
         for (std::size_t skip = 0; skip < 4; ++skip) {
-            Half half{{}, i};
-            std::size_t n = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-                if (k != skip) {
-                    half.corners.at(n++) = t.at(k);
-                }
-            }
-            std::sort(half.corners.begin(), half.corners.end());
-            halves.push_back(half);
+            halves.push_back({sorted_face(t, skip), i});
         }
     }
     std::sort(halves.begin(), halves.end(), [](const Half& l, const Half& r) {
