@@ -136,19 +136,26 @@ class Sweeper {
             for (const Neighbours* side : {&below_, &above_}) {
                 const std::vector<std::int32_t> lower = of(*side, face.lower, axis);
                 const std::vector<std::int32_t> upper = of(*side, face.upper, axis);
-                bool goes_on = false;
-                for (const std::int32_t l : lower) {
-                    for (const std::int32_t u : upper) {
-                        const auto found = number_.find({l, u});
-                        if (found != number_.end()) {
-                            goes_on = true;
-                            floods.unite(index, found->second);
-                        }
-                    }
-                }
+                const bool goes_on = flood_between(index, lower, upper, floods);
                 face.marked = face.marked || (!goes_on && (!lower.empty() || !upper.empty()));
             }
         }
+    }
+
+    /// One flood with all faces between the cells beyond an edge; false where there is none.
+    bool flood_between(std::int32_t index, const std::vector<std::int32_t>& lower,
+                       const std::vector<std::int32_t>& upper, Sets& floods) {
+        bool goes_on = false;
+        for (const std::int32_t l : lower) {
+            for (const std::int32_t u : upper) {
+                const auto found = number_.find({l, u});
+                if (found != number_.end()) {
+                    goes_on = true;
+                    floods.unite(index, found->second);
+                }
+            }
+        }
+        return goes_on;
     }
 
     const cells::CellComplex& cells_;

@@ -77,38 +77,12 @@ class Flattener {
     }
 
     Sheets run() {
-        for (const Side& side : sides_) {
-            const Sheet& sheet = out_.sheets[side.sheet];
-            for (const LatticePoint& at : side.corners) {
-                if (!corners_.contains(at)) {
-                    corners_[at].point = mapped_back(at, sheet.lower[0], sheet.upper[0]);
-                }
-            }
-        }
-        std::vector<std::size_t> order(sides_.size());
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            order[i] = i;
-        }
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) {
-            return out_.sheets[sides_[l].sheet].area_mm2 > out_.sheets[sides_[r].sheet].area_mm2;
-        });
+        map_corners();
+        const std::vector<std::size_t> order = largest_first();
         std::vector<char> queued(sides_.size(), 0);
         for (const std::size_t start : order) {
-            std::deque<std::size_t> queue;
             if (queued[start] == 0) {
-                queued[start] = 1;
-                queue.push_back(start);
-            }
-            while (!queue.empty()) {
-                const std::size_t next = queue.front();
-                queue.pop_front();
-                flatten(sides_[next]);
-                for (const std::size_t other : order) {
-                    if (queued[other] == 0 && touch(sides_[next], sides_[other])) {
-                        queued[other] = 1;
-                        queue.push_back(other);
-                    }
-                }
+                flatten_from(start, order, queued);
             }
         }
         for (const Side& side : sides_) {
@@ -118,6 +92,46 @@ class Flattener {
     }
 
   private:
+    void map_corners() {
+        for (const Side& side : sides_) {
+            const Sheet& sheet = out_.sheets[side.sheet];
+            for (const LatticePoint& at : side.corners) {
+                if (!corners_.contains(at)) {
+                    corners_[at].point = mapped_back(at, sheet.lower[0], sheet.upper[0]);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<std::size_t> largest_first() const {
+        std::vector<std::size_t> order(sides_.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            order[i] = i;
+        }
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) {
+            return out_.sheets[sides_[l].sheet].area_mm2 > out_.sheets[sides_[r].sheet].area_mm2;
+        });
+        return order;
+    }
+
+    /// Flattens a side, then those that touch it, the larger first, and so on.
+    void flatten_from(std::size_t start, const std::vector<std::size_t>& order,
+                      std::vector<char>& queued) {
+        std::deque<std::size_t> queue{start};
+        queued[start] = 1;
+        while (!queue.empty()) {
+            const std::size_t next = queue.front();
+            queue.pop_front();
+            flatten(sides_[next]);
+            for (const std::size_t other : order) {
+                if (queued[other] == 0 && touch(sides_[next], sides_[other])) {
+                    queued[other] = 1;
+                    queue.push_back(other);
+                }
+            }
+        }
+    }
+
     void list_sides(const std::vector<LatticeFace>& faces) {
         std::map<std::tuple<std::int32_t, std::int32_t, int, int>, std::size_t> number;
         for (const LatticeFace& face : faces) {

@@ -24,6 +24,8 @@ struct SheetKey {
     std::int32_t lower = -1;
     std::int32_t upper = -1;
 
+    // clang-tidy 14 takes the 0 inside a defaulted comparison for a null pointer.
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     auto operator<=>(const SheetKey&) const = default;
 };
 
@@ -206,6 +208,24 @@ class Builder {
     std::vector<double> own_rms_;
 };
 
+/// Where the edges of a tet cross a plane of polycube space, in the shape.
+std::vector<Eigen::Vector3d> mapped_crossings(const cells::CellComplex& cells,
+                                              const cells::SubTet& tet, int axis,
+                                              double coordinate) {
+    std::vector<Eigen::Vector3d> out;
+    for (const std::uint32_t a : tet.corners) {
+        const double height_a = cells.polycube[a][axis] - coordinate;
+        for (const std::uint32_t b : tet.corners) {
+            const double height_b = cells.polycube[b][axis] - coordinate;
+            if (height_a < 0 && height_b >= 0) {
+                const double t = height_a / (height_a - height_b);
+                out.emplace_back(cells.shape[a] + t * (cells.shape[b] - cells.shape[a]));
+            }
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 Eigen::Matrix3d axes_of(const cells::CellComplex& cells) {
@@ -242,17 +262,8 @@ std::optional<part::Plane> mapped_plane(const cells::CellComplex& cells,
         if (tet.flipped || cell_wanted[static_cast<std::size_t>(tet.cell)] == 0) {
             continue;
         }
-        std::vector<Eigen::Vector3d> crossings;
-        for (const std::uint32_t a : tet.corners) {
-            const double height_a = cells.polycube[a][axis] - coordinate;
-            for (const std::uint32_t b : tet.corners) {
-                const double height_b = cells.polycube[b][axis] - coordinate;
-                if (height_a < 0 && height_b >= 0) {
-                    const double t = height_a / (height_a - height_b);
-                    crossings.emplace_back(cells.shape[a] + t * (cells.shape[b] - cells.shape[a]));
-                }
-            }
-        }
+        const std::vector<Eigen::Vector3d> crossings =
+            mapped_crossings(cells, tet, axis, coordinate);
         // Three crossings are a triangle; four, listed row by row, a quadrilateral with the last
         // two the wrong way round.
         for (std::size_t k = 0; k + 2 < crossings.size(); ++k) {
