@@ -325,6 +325,7 @@ class Cutter {
             }
         }
         std::vector<Tally> out;
+        out.reserve(sums.size());
         for (auto& [body, sum] : sums) {
             out.push_back(std::move(sum));
         }
@@ -349,18 +350,26 @@ class Cutter {
                                             options_.nudge_share * sheets_.diagonal_mm);
     }
 
+    /// Looks at every plane for a region that has not been looked at.
+    Status look_at_all(std::size_t index) {
+        if (!looks_[index].empty()) {
+            return {};
+        }
+        for (std::int32_t cut = 0; cut < static_cast<std::int32_t>(sheets_.planes.size()); ++cut) {
+            Result<Look> look = look_at(index, cut);
+            if (!look) {
+                return fail(look.error());
+            }
+            looks_[index].push_back(std::move(*look));
+        }
+        return {};
+    }
+
     Result<std::optional<Choice>> best() {
         std::vector<Choice> open;
         for (std::size_t i = 0; i < atoms_.size(); ++i) {
-            if (looks_[i].empty()) {
-                for (std::int32_t cut = 0; cut < static_cast<std::int32_t>(sheets_.planes.size());
-                     ++cut) {
-                    Result<Look> look = look_at(i, cut);
-                    if (!look) {
-                        return fail(look.error());
-                    }
-                    looks_[i].push_back(std::move(*look));
-                }
+            if (Status looked = look_at_all(i); !looked) {
+                return fail(looked.error());
             }
             for (const Look& look : looks_[i]) {
                 // A limited cut is preferred where it gains nearly as much.

@@ -78,18 +78,24 @@ class Healer {
     }
 
   private:
+    /// The label of the labelled atom that an atom touches most; -1 if there is none.
+    [[nodiscard]] std::int32_t label_in_most_contact(std::size_t atom) const {
+        double most = 0;
+        std::int32_t label = -1;
+        for (const auto& [other, area] : contacts_[atom]) {
+            if (labels_[other] >= 0 && area > most) {
+                most = area;
+                label = labels_[other];
+            }
+        }
+        return label;
+    }
+
     void adopt_the_voteless() {
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t i = 0; i < atoms_.size(); ++i) {
-                double most = 0;
-                std::int32_t label = -1;
-                for (const auto& [other, area] : contacts_[i]) {
-                    if (labels_[other] >= 0 && area > most) {
-                        most = area;
-                        label = labels_[other];
-                    }
-                }
+                const std::int32_t label = label_in_most_contact(i);
                 if (labels_[i] < 0 && label >= 0) {
                     labels_[i] = label;
                     changed = true;
@@ -106,33 +112,36 @@ class Healer {
         std::vector<Piece> out;
         std::vector<char> seen(atoms_.size(), 0);
         for (std::size_t start = 0; start < atoms_.size(); ++start) {
-            if (seen[start] != 0) {
-                continue;
+            if (seen[start] == 0) {
+                out.push_back(piece_about(start, seen));
             }
-            Piece piece;
-            std::vector<std::size_t> open{start};
-            seen[start] = 1;
-            while (!open.empty()) {
-                const std::size_t i = open.back();
-                open.pop_back();
-                piece.atoms.push_back(i);
-                piece.volume_mm3 += volumes_[i];
-                const auto label = static_cast<std::size_t>(labels_[i]);
-                piece.votes_mm3 +=
-                    label < atoms_[i].tally.size() ? atoms_[i].tally[label] : volumes_[i];
-                for (const auto& [other, area] : contacts_[i]) {
-                    if (labels_[other] != labels_[i]) {
-                        piece.touching[labels_[other]] += area;
-                        piece.interface_mm2 += area;
-                    } else if (seen[other] == 0) {
-                        seen[other] = 1;
-                        open.push_back(other);
-                    }
-                }
-            }
-            out.push_back(std::move(piece));
         }
         return out;
+    }
+
+    [[nodiscard]] Piece piece_about(std::size_t start, std::vector<char>& seen) const {
+        Piece piece;
+        std::vector<std::size_t> open{start};
+        seen[start] = 1;
+        while (!open.empty()) {
+            const std::size_t i = open.back();
+            open.pop_back();
+            piece.atoms.push_back(i);
+            piece.volume_mm3 += volumes_[i];
+            const auto label = static_cast<std::size_t>(labels_[i]);
+            piece.votes_mm3 +=
+                label < atoms_[i].tally.size() ? atoms_[i].tally[label] : volumes_[i];
+            for (const auto& [other, area] : contacts_[i]) {
+                if (labels_[other] != labels_[i]) {
+                    piece.touching[labels_[other]] += area;
+                    piece.interface_mm2 += area;
+                } else if (seen[other] == 0) {
+                    seen[other] = 1;
+                    open.push_back(other);
+                }
+            }
+        }
+        return piece;
     }
 
     [[nodiscard]] const Piece* smallest_sick(const std::vector<Piece>& all) const {

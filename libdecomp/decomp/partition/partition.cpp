@@ -19,10 +19,9 @@ namespace {
 
 constexpr std::array<double, 4> kOtherNudges{5.0 / 3, 7.0 / 3, 10.0 / 3, 5};
 
-/// Joins atoms of one label that touch: everything between them vanishes. A label may have several
-/// pieces only where no neighbour could take them.
-std::vector<BoxPart> merged(cut::Complex& complex, const std::vector<Atom>& atoms,
-                            const std::vector<std::int32_t>& labels) {
+/// For each atom the first of its piece: those of one label that hang together.
+std::vector<std::size_t> pieces_of(const std::vector<Atom>& atoms,
+                                   const std::vector<std::int32_t>& labels) {
     std::map<std::int32_t, std::size_t> number;
     for (std::size_t i = 0; i < atoms.size(); ++i) {
         number[atoms[i].region] = i;
@@ -31,15 +30,24 @@ std::vector<BoxPart> merged(cut::Complex& complex, const std::vector<Atom>& atom
     std::iota(piece.begin(), piece.end(), 0U);
     for (std::size_t i = 0; i < atoms.size(); ++i) {
         for (const part::FacetSource& source : atoms[i].part.sources) {
-            if (source.is_cut()) {
-                const std::size_t other = number.at(source.neighbour);
-                if (labels[other] == labels[i] && piece[other] != piece[i]) {
-                    const auto [into, from] = std::minmax(piece[i], piece[other]);
-                    std::replace(piece.begin(), piece.end(), std::size_t{from}, std::size_t{into});
-                }
+            if (!source.is_cut()) {
+                continue;
+            }
+            const std::size_t other = number.at(source.neighbour);
+            if (labels[other] == labels[i] && piece[other] != piece[i]) {
+                const auto [into, from] = std::minmax(piece[i], piece[other]);
+                std::replace(piece.begin(), piece.end(), std::size_t{from}, std::size_t{into});
             }
         }
     }
+    return piece;
+}
+
+/// Joins atoms of one label that touch: everything between them vanishes. A label may have several
+/// pieces only where no neighbour could take them.
+std::vector<BoxPart> merged(cut::Complex& complex, const std::vector<Atom>& atoms,
+                            const std::vector<std::int32_t>& labels) {
+    const std::vector<std::size_t> piece = pieces_of(atoms, labels);
     std::map<std::size_t, Tally> tallies;
     for (std::size_t i = 0; i < atoms.size(); ++i) {
         Tally& tally = tallies.try_emplace(piece[i], atoms[i].tally.size(), 0.0).first->second;

@@ -49,7 +49,9 @@ std::vector<Atom> Ballot::placed(const cut::Complex& complex,
                                  const std::vector<std::uint32_t>& votes,
                                  const part::Plane* plane) const {
     std::vector<Atom> out;
+    out.reserve(regions.size());
     std::vector<const mesh::TriMesh*> solids;
+    solids.reserve(regions.size());
     for (const std::int32_t region : regions) {
         out.push_back({region, complex.region(region), {}, Tally(of_boxes_.size(), 0)});
     }
