@@ -172,8 +172,11 @@ class Checker {
         }
     }
 
-    void count_charts() {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
+    using Edge = std::pair<std::uint32_t, std::uint32_t>;
+    using FacetsAtEdges = std::map<Edge, std::vector<std::size_t>>;
+
+    [[nodiscard]] FacetsAtEdges facets_at_edges() const {
+        FacetsAtEdges sides;
         for (std::size_t f = 0; f < facets_.size(); ++f) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto edge =
@@ -181,6 +184,11 @@ class Checker {
                 sides[{edge.first, edge.second}].push_back(f);
             }
         }
+        return sides;
+    }
+
+    /// For each facet one that stands for its chart.
+    [[nodiscard]] std::vector<std::size_t> charts(const FacetsAtEdges& sides) const {
         std::vector<std::size_t> chart(facets_.size());
         std::iota(chart.begin(), chart.end(), std::size_t{0});
         const auto root = [&](std::size_t f) {
@@ -196,16 +204,25 @@ class Checker {
                 }
             }
         }
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            chart[f] = root(f);
+        }
+        return chart;
+    }
+
+    void count_charts() {
+        const FacetsAtEdges sides = facets_at_edges();
+        const std::vector<std::size_t> chart = charts(sides);
         std::map<std::size_t, std::set<std::size_t>> neighbours;
         std::set<std::pair<std::size_t, std::size_t>> opposite;
         std::map<std::uint32_t, int> ends;  // boundary edges at each point
         for (std::size_t f = 0; f < facets_.size(); ++f) {
-            neighbours[root(f)];
+            neighbours[chart[f]];
         }
         for (const auto& [edge, on] : sides) {
             for (std::size_t i = 1; i < on.size(); ++i) {
-                const std::size_t a = root(on[0]);
-                const std::size_t b = root(on[i]);
+                const std::size_t a = chart[on[0]];
+                const std::size_t b = chart[on[i]];
                 if (a == b) {
                     continue;
                 }
@@ -223,6 +240,11 @@ class Checker {
             out_.poor_charts += others.size() < 4 ? 1 : 0;
         }
         out_.opposite_boundaries = static_cast<int>(opposite.size());
+        count_corners(ends);
+    }
+
+    /// Points where three boundary edges or more meet.
+    void count_corners(const std::map<std::uint32_t, int>& ends) {
         std::map<std::uint32_t, std::set<int>> axes;
         for (const Facet& facet : facets_) {
             for (const std::uint32_t corner : facet.corners) {

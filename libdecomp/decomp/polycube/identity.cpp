@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace decomp::polycube {
 
@@ -46,80 +47,110 @@ std::vector<double> crossings(const mesh::TriMesh& mesh, double x, double y) {
     return out;
 }
 
+/// The six tets of a box lead from its lowest corner to its highest, along the axes in these
+/// orders; the last three are mirrored.
+constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
+    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+
+using GridPoint = std::array<int, 3>;
+
+/// Tets that share the points of a grid.
+class VoxelTets {
+  public:
+    VoxelTets(Eigen::Vector3d low, Eigen::Vector3d step)
+        : low_(std::move(low)), step_(std::move(step)) {}
+
+    /// The voxels from this one upwards whose centres lie inside: above an odd number of crossings.
+    void add_column(GridPoint lowest, int layers, const std::vector<double>& heights) {
+        for (; lowest[2] < layers; ++lowest[2]) {
+            const double z = low_.z() + (lowest[2] + 0.5) * step_.z();
+            const auto below = std::count_if(heights.begin(), heights.end(),
+                                             [&](double height) { return height < z; });
+            if (below % 2 != 0) {
+                add(lowest);
+            }
+        }
+    }
+
+    tets::TetMesh take() { return std::move(out_); }
+
+  private:
+    void add(const GridPoint& lowest) {
+        for (std::size_t o = 0; o < kOrders.size(); ++o) {
+            GridPoint at = lowest;
+            tets::Tet tet{};
+            tet[0] = point(at);
+            for (std::size_t s = 0; s < 3; ++s) {
+                ++at.at(kOrders.at(o).at(s));
+                tet.at(s + 1) = point(at);
+            }
+            if (o >= 3) {
+                std::swap(tet[2], tet[3]);
+            }
+            out_.tets.push_back(tet);
+        }
+    }
+
+    std::uint32_t point(const GridPoint& at) {
+        const auto [found, fresh] =
+            number_.emplace(at, static_cast<std::uint32_t>(out_.points.size()));
+        if (fresh) {
+            out_.points.emplace_back(low_ +
+                                     step_.cwiseProduct(Eigen::Vector3d(at[0], at[1], at[2])));
+        }
+        return found->second;
+    }
+
+    Eigen::Vector3d low_;
+    Eigen::Vector3d step_;
+    tets::TetMesh out_;
+    std::map<GridPoint, std::uint32_t> number_;
+};
+
+/// The box alone, six tets.
+tets::TetMesh box_tets(const Eigen::AlignedBox3d& box) {
+    tets::TetMesh out;
+    for (std::uint32_t c = 0; c < 8; ++c) {
+        out.points.emplace_back((c & 1U) != 0 ? box.max().x() : box.min().x(),
+                                (c & 2U) != 0 ? box.max().y() : box.min().y(),
+                                (c & 4U) != 0 ? box.max().z() : box.min().z());
+    }
+    for (const auto& order : kOrders) {
+        tets::Tet tet{0, 0, 0, 0};
+        for (std::size_t s = 0; s < 3; ++s) {
+            tet.at(s + 1) = tet.at(s) | (1U << order.at(s));
+        }
+        if (tets::six_volumes(out.points, tet) < 0) {
+            std::swap(tet[2], tet[3]);
+        }
+        out.tets.push_back(tet);
+    }
+    return out;
+}
+
 /// Voxels whose centres lie inside, six tets each.
 tets::TetMesh voxel_tets(const mesh::TriMesh& mesh) {
     const Eigen::AlignedBox3d box = mesh::bounds(mesh);
     const double edge = box.sizes().maxCoeff() / kVoxels;
-    std::array<int, 3> size{};
+    GridPoint size{};
     for (int d = 0; d < 3; ++d) {
         size.at(static_cast<std::size_t>(d)) =
             std::max(1, static_cast<int>(std::lround(box.sizes()[d] / edge)));
     }
     const Eigen::Vector3d step =
         box.sizes().cwiseQuotient(Eigen::Vector3d(size[0], size[1], size[2]));
-    constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
-        {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-    tets::TetMesh out;
-    std::map<std::array<int, 3>, std::uint32_t> number;
-    const auto point = [&](const std::array<int, 3>& at) {
-        const auto [found, fresh] =
-            number.emplace(at, static_cast<std::uint32_t>(out.points.size()));
-        if (fresh) {
-            out.points.push_back(box.min() +
-                                 step.cwiseProduct(Eigen::Vector3d(at[0], at[1], at[2])));
-        }
-        return found->second;
-    };
+    VoxelTets voxels(box.min(), step);
     for (int i = 0; i < size[0]; ++i) {
         for (int j = 0; j < size[1]; ++j) {
             const std::vector<double> heights =
                 crossings(mesh, box.min().x() + (i + 0.5 + kOffCentre) * step.x(),
                           box.min().y() + (j + 0.5 - kOffCentre) * step.y());
-            for (int k = 0; k < size[2]; ++k) {
-                const double z = box.min().z() + (k + 0.5) * step.z();
-                const auto below = std::count_if(heights.begin(), heights.end(),
-                                                 [&](double height) { return height < z; });
-                if (below % 2 == 0) {
-                    continue;
-                }
-                for (std::size_t o = 0; o < kOrders.size(); ++o) {
-                    std::array<int, 3> at{i, j, k};
-                    tets::Tet tet{};
-                    tet[0] = point(at);
-                    for (std::size_t s = 0; s < 3; ++s) {
-                        ++at.at(kOrders.at(o).at(s));
-                        tet.at(s + 1) = point(at);
-                    }
-                    if (o >= 3) {
-                        std::swap(tet[2], tet[3]);
-                    }
-                    out.tets.push_back(tet);
-                }
-            }
+            voxels.add_column({i, j, 0}, size[2], heights);
         }
     }
-    if (out.tets.empty()) {
-        // Thinner than a voxel everywhere: the box stands for it.
-        out.points.clear();
-        std::array<std::uint32_t, 8> corners{};
-        for (std::uint32_t c = 0; c < 8; ++c) {
-            corners.at(c) = c;
-            out.points.emplace_back((c & 1U) != 0 ? box.max().x() : box.min().x(),
-                                    (c & 2U) != 0 ? box.max().y() : box.min().y(),
-                                    (c & 4U) != 0 ? box.max().z() : box.min().z());
-        }
-        for (const auto& order : kOrders) {
-            tets::Tet tet{0, 0, 0, 0};
-            for (std::size_t s = 0; s < 3; ++s) {
-                tet.at(s + 1) = tet.at(s) | (1U << order.at(s));
-            }
-            if (tets::six_volumes(out.points, tet) < 0) {
-                std::swap(tet[2], tet[3]);
-            }
-            out.tets.push_back(tet);
-        }
-    }
-    return out;
+    tets::TetMesh out = voxels.take();
+    // Thinner than a voxel everywhere: the box stands for it.
+    return out.tets.empty() ? box_tets(box) : out;
 }
 
 /// The strongest events along an axis, not too near to each other or to the ends.
