@@ -20,6 +20,8 @@ struct Pair {
     double area;
 };
 
+using Refusals = std::set<std::pair<std::int32_t, std::int32_t>>;
+
 double interface_area(const part::Part& part, std::int32_t neighbour) {
     double area = 0;
     for (std::size_t i = 0; i < part.sources.size(); ++i) {
@@ -31,8 +33,7 @@ double interface_area(const part::Part& part, std::int32_t neighbour) {
 }
 
 /// Pairs that touch and have not been refused, largest interface first.
-std::vector<Pair> open_pairs(const std::vector<Finished>& finished,
-                             const std::set<std::pair<std::int32_t, std::int32_t>>& refused) {
+std::vector<Pair> open_pairs(const std::vector<Finished>& finished, const Refusals& refused) {
     std::vector<Pair> pairs;
     for (const Finished& one : finished) {
         std::set<std::int32_t> neighbours;
@@ -86,11 +87,34 @@ bool acceptable(const Finished& a, const Finished& b, const part::Part& both,
            verdict.support_area_mm2 <= apart + kMoreSupport * mesh::area_mm2(both.mesh);
 }
 
+/// The second region of a pair goes into the first; what touched it is read anew.
+void merge(cut::Complex& complex, std::vector<Finished>& finished, const Pair& pair) {
+    complex.merge(pair.a, pair.b);
+    std::erase_if(finished, [&](const Finished& one) { return one.region == pair.b; });
+    for (Finished& one : finished) {
+        const bool touches =
+            one.region == pair.a ||
+            std::any_of(one.part.sources.begin(), one.part.sources.end(),
+                        [&](const part::FacetSource& s) { return s.neighbour == pair.b; });
+        if (touches) {
+            one.part = complex.region(one.region);
+        }
+    }
+}
+
+/// A merge changes what its survivor can be united with.
+void forget_gone(Refusals& refused, const std::vector<Finished>& finished) {
+    std::erase_if(refused, [&](const auto& pair) {
+        return std::none_of(finished.begin(), finished.end(),
+                            [&](const Finished& one) { return one.region == pair.second; });
+    });
+}
+
 }  // namespace
 
 int unite_neighbours(cut::Complex& complex, std::vector<Finished>& finished,
                      const part::Judge& judge, Run& run) {
-    std::set<std::pair<std::int32_t, std::int32_t>> refused;
+    Refusals refused;
     int merges = 0;
     for (bool merged = true; merged && !run.cancelled();) {
         merged = false;
@@ -112,27 +136,12 @@ int unite_neighbours(cut::Complex& complex, std::vector<Finished>& finished,
             }
             merged = true;
             ++merges;
-            complex.merge(pairs[i].a, pairs[i].b);
-            std::erase_if(finished, [&](const Finished& one) { return one.region == pairs[i].b; });
-            for (Finished& one : finished) {
-                const bool touches = one.region == pairs[i].a ||
-                                     std::any_of(one.part.sources.begin(), one.part.sources.end(),
-                                                 [&](const part::FacetSource& s) {
-                                                     return s.neighbour == pairs[i].b;
-                                                 });
-                if (touches) {
-                    one.part = complex.region(one.region);
-                }
-            }
+            merge(complex, finished, pairs[i]);
             Finished& survivor = of_region(finished, pairs[i].a);
             survivor.verdict = judge(survivor.part, part::Fidelity::Exact);
         }
         if (merged) {
-            // A merge changes what its survivor can be united with.
-            std::erase_if(refused, [&](const auto& pair) {
-                return std::none_of(finished.begin(), finished.end(),
-                                    [&](const Finished& one) { return one.region == pair.second; });
-            });
+            forget_gone(refused, finished);
         }
     }
     return merges;
