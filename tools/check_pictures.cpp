@@ -78,7 +78,7 @@ Status draw(const CheckRequest& request, const ColouredPart& coloured, decomp::R
     for (const Rgb& colour : coloured.colours) {
         faces.push_back({colour.red, colour.green, colour.blue});
     }
-    if (const auto written =
+    if (auto written =
             decomp::write_file(request.out / (name + ".ply"),
                                decomp::io::ply_bytes(coloured.part->mesh, faces), overwrite);
         !written) {

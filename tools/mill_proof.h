@@ -16,7 +16,7 @@ namespace tools {
 struct ProvedMilling {
     std::string sidecar;  ///< text of PROGRAM.proof.json
     std::string stock;    ///< PLY of what remains, coloured by its deviation
-    Json figures;
+    Json figures = Json::object();
     std::string text;  ///< for people
     bool passed = false;
 };
