@@ -66,7 +66,7 @@ class Writer {
     enum class Urgency { Normal, Urgent };
 
     /// Adds a record; never waits. @return its number
-    std::uint64_t add(std::string text, Urgency urgency = Urgency::Normal);
+    std::uint64_t add(std::string_view text, Urgency urgency = Urgency::Normal);
 
     /// A record of how far things are: only the last of those that come within some milliseconds
     /// is written. Never waits. `lines` counts towards sync_count.

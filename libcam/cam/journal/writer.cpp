@@ -168,7 +168,7 @@ decomp::Result<std::unique_ptr<Writer>> Writer::append(const std::filesystem::pa
     return std::unique_ptr<Writer>(new Writer(std::move(state)));
 }
 
-std::uint64_t Writer::add(std::string text, Urgency urgency) {
+std::uint64_t Writer::add(std::string_view text, Urgency urgency) {
     std::uint64_t number = 0;
     {
         const std::scoped_lock lock(state_->mutex);
