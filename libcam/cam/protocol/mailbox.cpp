@@ -25,7 +25,7 @@ std::uint32_t number_of(const JobLines& job) {
 }  // namespace
 
 Mailbox::Mailbox(const JobLines& job, MailboxOptions options)
-    : job_(job), options_(std::move(options)), job_number_(number_of(job)) {
+    : job_(job), options_(options), job_number_(number_of(job)) {
     counts_.total = job.size();
 }
 
@@ -72,14 +72,12 @@ void Mailbox::send(Request request, const std::string& bytes, Instant now) {
 
 void Mailbox::ask_identity(Instant now) {
     const RegisterSpan span = identity_span(options_.map);
-    send(Request::Identity,
-         read_request(++request_tag_, options_.map.read_function, span.address, span.count), now);
+    send(Request::Identity, read_request(++request_tag_, options_.map.read_function, span), now);
 }
 
 void Mailbox::ask_status(Instant now) {
     const RegisterSpan span = status_span(options_.map);
-    send(Request::Status,
-         read_request(++request_tag_, options_.map.read_function, span.address, span.count), now);
+    send(Request::Status, read_request(++request_tag_, options_.map.read_function, span), now);
 }
 
 /// Writes, and reads the status: at once where the machine can, else in a second request.

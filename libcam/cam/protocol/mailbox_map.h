@@ -86,11 +86,6 @@ struct MailboxMap {
 [[nodiscard]] decomp::Result<MailboxMap> read_mailbox_map(const std::vector<std::string>& moved);
 
 /// Registers from..to in one transaction.
-struct RegisterSpan {
-    std::uint16_t address = 0;
-    std::uint16_t count = 0;
-};
-
 [[nodiscard]] RegisterSpan identity_span(const MailboxMap& map);
 [[nodiscard]] RegisterSpan status_span(const MailboxMap& map);
 /// Job to Watchdog.

@@ -18,7 +18,7 @@ constexpr std::size_t kFarthestBack = 1000;  ///< entries that a request may go 
 }  // namespace
 
 Marlin::Marlin(const JobLines& job, LinkOptions options)
-    : job_(job), options_(options), allowed_(0), cut_(job.size()) {
+    : job_(job), options_(options), cut_(job.size()) {
     counts_.total = job.size();
     silence_ = options_.silence;
 }

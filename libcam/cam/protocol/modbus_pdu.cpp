@@ -73,11 +73,10 @@ ModbusAnswer read_answer(std::string_view frame) {
 
 }  // namespace
 
-std::string read_request(std::uint8_t tag, std::uint8_t function, std::uint16_t address,
-                         std::uint16_t count) {
+std::string read_request(std::uint8_t tag, std::uint8_t function, const RegisterSpan& span) {
     std::string pdu(1, static_cast<char>(function));
-    put(pdu, address);
-    put(pdu, count);
+    put(pdu, span.address);
+    put(pdu, span.count);
     return framed(tag, pdu);
 }
 

@@ -17,6 +17,12 @@ namespace cam::protocol {
 
 using Registers = std::vector<std::uint16_t>;
 
+/// Registers that lie together.
+struct RegisterSpan {
+    std::uint16_t address = 0;
+    std::uint16_t count = 0;
+};
+
 inline constexpr std::size_t kMostReadRegisters = 125;
 inline constexpr std::size_t kMostWriteRegisters = 121;  ///< with function 23; 123 with 16
 
@@ -32,7 +38,7 @@ struct ModbusAnswer {
 
 /// Function 3 or 4. @param function  3 or 4
 [[nodiscard]] std::string read_request(std::uint8_t tag, std::uint8_t function,
-                                       std::uint16_t address, std::uint16_t count);
+                                       const RegisterSpan& span);
 
 /// Function 16.
 [[nodiscard]] std::string write_request(std::uint8_t tag, std::uint16_t address,
