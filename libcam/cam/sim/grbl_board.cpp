@@ -85,10 +85,7 @@ void GrblBoard::realtime(unsigned char byte, Time now) {
             report(now);
             break;
         case '!':
-            if (state_ == State::Run) {
-                planner_.hold(now);
-                state_ = State::Hold;
-            } else if (state_ == State::Idle) {
+            if (state_ == State::Run || state_ == State::Idle) {
                 planner_.hold(now);
                 state_ = State::Hold;
             }
@@ -276,7 +273,7 @@ int GrblBoard::command(const std::string& line) {
     waiting_ = std::move(block);
     chord_ = 0;
     blocked_ = true;
-    draining_ = block.drain;
+    draining_ = waiting_.drain;
     return 0;
 }
 

@@ -14,26 +14,25 @@ constexpr double kMmPerInch = 25.4;
 constexpr double kArcToleranceMm = 0.002;  ///< $12
 constexpr std::string_view kAxisLetters = "XYZABC";
 
-enum Error {
-    kFine = 0,
-    kExpectedLetter = 1,
-    kBadNumber = 2,
-    kNegative = 4,
-    kUnsupported = 20,
-    kModalGroup = 21,
-    kNoFeed = 22,
-    kNotWhole = 23,
-    kTwoAxisCommands = 24,
-    kRepeated = 25,
-    kNoAxisWords = 26,
-    kMissingValue = 28,
-    kG53Motion = 30,
-    kUnusedAxisWords = 31,
-    kBadTarget = 33,
-    kBadRadius = 34,
-    kNoOffsets = 35,
-    kUnused = 36
-};
+// What a block is refused for, by Grbl's numbers.
+constexpr int kFine = 0;
+constexpr int kExpectedLetter = 1;
+constexpr int kBadNumber = 2;
+constexpr int kNegative = 4;
+constexpr int kUnsupported = 20;
+constexpr int kModalGroup = 21;
+constexpr int kNoFeed = 22;
+constexpr int kNotWhole = 23;
+constexpr int kTwoAxisCommands = 24;
+constexpr int kRepeated = 25;
+constexpr int kNoAxisWords = 26;
+constexpr int kMissingValue = 28;
+constexpr int kG53Motion = 30;
+constexpr int kUnusedAxisWords = 31;
+constexpr int kBadTarget = 33;
+constexpr int kBadRadius = 34;
+constexpr int kNoOffsets = 35;
+constexpr int kUnused = 36;
 
 }  // namespace
 

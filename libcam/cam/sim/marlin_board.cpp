@@ -191,7 +191,6 @@ bool MarlinBoard::work(Time now) {
     }
     switch (wait_) {
         case Wait::None:
-            return false;
         case Wait::User:
             return false;
         case Wait::Slot:

@@ -58,6 +58,7 @@ class MarlinBoard final : public Board {
     void start(const std::string& text, Time now);
     void general(int code, const std::string& text, Time now);
     void miscellaneous(int code, const std::string& text, Time now);
+    void set_place(const std::string& text);
     void move(int code, const std::string& text);
     void identify();
     void finish(Time now);

@@ -93,21 +93,26 @@ void MarlinBoard::general(int code, const std::string& text, Time now) {
         case 91:
             absolute_ = absolute_e_ = code == 90;
             break;
-        case 92: {
-            Point place = planner_.target();
-            for (std::size_t axis = 0; axis < 4; ++axis) {
-                if (parameter(text, "XYZE"[axis], value)) {
-                    place[axis] = value;
-                }
-            }
-            planner_.place(place);
+        case 92:
+            set_place(text);
             break;
-        }
         default:
             if (code > 100 || code < 0) {
                 out_ += "echo:Unknown command: \"" + text + "\"\n";
             }
     }
+}
+
+/// From now on the machine stands at these coordinates.
+void MarlinBoard::set_place(const std::string& text) {
+    Point place = planner_.target();
+    double value = 0;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        if (parameter(text, "XYZE"[axis], value)) {
+            place[axis] = value;
+        }
+    }
+    planner_.place(place);
 }
 
 void MarlinBoard::move(int code, const std::string& text) {

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 namespace cam::sim {
 
@@ -100,11 +101,17 @@ bool read_fault(const std::vector<std::string>& words, ModbusFaults& faults) {
         words.size() == 3 && words[0] != "late" ? words[0] + " " + words[1] : words[0];
     if (what == "seed") {
         faults.seed = static_cast<std::uint64_t>(value);
-    } else if (what == "restart every") {
+        return true;
+    }
+    if (what == "restart every") {
         faults.restart_every = static_cast<long>(value);
-    } else if (value > 1) {
+        return true;
+    }
+    // The others are chances.
+    if (value > 1) {
         return false;
-    } else if (what == "drop before") {
+    }
+    if (what == "drop before") {
         faults.drop_before = value;
     } else if (what == "drop after") {
         faults.drop_after = value;
@@ -354,17 +361,18 @@ void ModbusServer::take_frames(int descriptor, Peer& peer, Time now) {
         if (peer.in.size() < 6 + length) {
             return;
         }
-        const std::string head = peer.in.substr(0, kHeader);
+        std::string head = peer.in.substr(0, kHeader);
         const std::string pdu = peer.in.substr(kHeader, length - 1);
         peer.in.erase(0, 6 + length);
-        if (!frame(descriptor, false, head, pdu, now)) {
+        if (!frame(descriptor, false, std::move(head), pdu, now)) {
             return;
         }
     }
 }
 
 /// One request. False: the connection is gone, and the peer with it.
-bool ModbusServer::frame(int descriptor, bool rtu, std::string head, std::string pdu, Time now) {
+bool ModbusServer::frame(int descriptor, bool rtu, std::string head, const std::string& pdu,
+                         Time now) {
     ++requests_;
     const ModbusFaults& faults = options_.faults;
     if (chance(faults.drop_before)) {
@@ -386,7 +394,7 @@ bool ModbusServer::frame(int descriptor, bool rtu, std::string head, std::string
         drop_peer(descriptor);
         return rtu;
     }
-    std::string bytes = head;
+    std::string bytes = std::move(head);
     if (rtu) {
         bytes += answer;
         const std::uint16_t crc = crc16(bytes);

@@ -85,7 +85,7 @@ class ModbusServer {
     void accept_peer();
     bool hear(int descriptor, Time now);
     void take_frames(int descriptor, Peer& peer, Time now);
-    bool frame(int descriptor, bool rtu, std::string head, std::string pdu, Time now);
+    bool frame(int descriptor, bool rtu, std::string head, const std::string& pdu, Time now);
     std::string carry_out(const std::string& pdu, Time now);
     void send_due(Time now);
     void drop_peer(int descriptor);
