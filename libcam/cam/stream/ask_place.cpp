@@ -40,7 +40,7 @@ decomp::Result<std::optional<protocol::AxisValues>> ask_place(Session::Open open
         return std::optional<protocol::AxisValues>{};
     }
     protocol::AxisValues place = status.position_mm;
-    for (std::size_t axis = static_cast<std::size_t>(status.axes); axis < place.size(); ++axis) {
+    for (auto axis = static_cast<std::size_t>(status.axes); axis < place.size(); ++axis) {
         place.at(axis) = std::nan("");
     }
     return std::optional(place);

@@ -86,8 +86,7 @@ class Examiner {
                                                   " is nothing that such a machine must know");
             }
         }
-        for (std::size_t axis = static_cast<std::size_t>(limits_.axes); mill_ && axis < kMaxAxes;
-             ++axis) {
+        for (auto axis = static_cast<std::size_t>(limits_.axes); mill_ && axis < kMaxAxes; ++axis) {
             if (words.find(kAxisLetters[axis]) != nullptr) {
                 object("stream.missing_axis",
                        "the machine has no axis " + std::string(1, kAxisLetters[axis]));

@@ -254,6 +254,23 @@ void set_position(ModalState& state, const Words& words, Flavour flavour) {
     }
 }
 
+/// Whether a G code, in tenths, reads axis words as something else than a target of motion.
+bool takes_axis_words(int code) {
+    return code == 40 || code == 100 || code == 920 || code == 280 || code == 300 || code == 281 ||
+           code == 301 || code == 290 || code == 800 || code == 921 || code == 431;
+}
+
+/// The machine goes to a place that only it knows.
+void go_home(ModalState& state, const Words& words, Flavour flavour) {
+    const bool all =
+        words.find('X') == nullptr && words.find('Y') == nullptr && words.find('Z') == nullptr;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (all || flavour == Flavour::Mill || words.find(kAxisLetters[axis]) != nullptr) {
+            state.position_mm.at(axis) = std::nan("");
+        }
+    }
+}
+
 }  // namespace
 
 AxisValues ModalState::unknown() {
@@ -270,19 +287,9 @@ Motion apply(ModalState& state, const Words& words, Flavour flavour) {
             const int code = tenths(word.value);
             apply_g(state, code, flavour);
             sets_position = sets_position || code == 920;
-            moves_elsewhere = moves_elsewhere || code == 40 || code == 100 || code == 920 ||
-                              code == 280 || code == 300 || code == 281 || code == 301 ||
-                              code == 290 || code == 800 || code == 921 || code == 431;
+            moves_elsewhere = moves_elsewhere || takes_axis_words(code);
             if (code == 280 || code == 300 || (code == 290 && flavour == Flavour::Print)) {
-                // The machine goes to a place that only it knows.
-                const bool all = words.find('X') == nullptr && words.find('Y') == nullptr &&
-                                 words.find('Z') == nullptr;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    if (all || flavour == Flavour::Mill ||
-                        words.find(kAxisLetters[axis]) != nullptr) {
-                        state.position_mm.at(axis) = std::nan("");
-                    }
-                }
+                go_home(state, words, flavour);
             }
         } else if (word.letter == 'M' && !word.bare) {
             const int code = static_cast<int>(std::lround(word.value));

@@ -51,7 +51,7 @@ class Preparer {
         if (!words.readable || (words.count == 0 && !says_text) || text[0] == '/') {
             return fail("stream.unreadable_line", "this is no G-code: '" + text + "'", where);
         }
-        if (const decomp::Status allowed = check(text, words, where); !allowed) {
+        if (decomp::Status allowed = check(text, words, where); !allowed) {
             return allowed;
         }
         take(text, words, number, raw);
@@ -75,8 +75,8 @@ class Preparer {
     }
 
   private:
-    decomp::Status check(const std::string& text, const Words& words,
-                         const std::string& where) const {
+    [[nodiscard]] decomp::Status check(const std::string& text, const Words& words,
+                                       const std::string& where) const {
         const auto forbidden = [&](const char* why) {
             return fail("stream.forbidden_command", "'" + text + "' " + why, where,
                         "take it out of the program");
@@ -220,7 +220,7 @@ decomp::Status each_line(std::string_view program, const Body& body) {
     long number = 0;
     while (!program.empty()) {
         const std::size_t end = std::min(program.find('\n'), program.size());
-        if (const decomp::Status done = body(program.substr(0, end), ++number); !done) {
+        if (decomp::Status done = body(program.substr(0, end), ++number); !done) {
             return done;
         }
         program.remove_prefix(std::min(end + 1, program.size()));

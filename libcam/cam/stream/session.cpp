@@ -118,8 +118,8 @@ void Session::carry_out(Instant now) {
         unsent_.insert(0, out.urgent);
         unsent_ += out.bytes;
         push_bytes();
-        for (Event& event : out.events) {
-            handle(std::move(event), now);
+        for (const Event& event : out.events) {
+            handle(event, now);
         }
     }
 }
@@ -139,12 +139,12 @@ void Session::push_bytes() {
     unsent_.erase(0, *sent);
 }
 
-void Session::handle(Event event, Instant now) {
+void Session::handle(const Event& event, Instant now) {
     if (options_.journal != nullptr && event.kind != Event::Kind::Resent) {
         std::string text = "event " + std::to_string(static_cast<int>(event.kind)) + " " +
                            std::to_string(event.line) + " " + event.code + " " + event.text;
         std::replace(text.begin(), text.end(), '\n', ' ');
-        options_.journal->add(std::move(text));
+        options_.journal->add(text);
     }
     const Event::Kind kind = event.kind;
     if (kind == Event::Kind::Finished || kind == Event::Kind::Stopped ||

@@ -90,7 +90,7 @@ class Session {
 
     decomp::Status connect();
     void carry_out(Instant now);
-    void handle(protocol::Event event, Instant now);
+    void handle(const protocol::Event& event, Instant now);
     void ready(const protocol::Event& event, Instant now);
     void push_bytes();
     bool wait(Instant now);

@@ -83,7 +83,7 @@ Status ProgramStream::check_gate() {
         if (!record) {
             return fail(record.error());
         }
-        if (const Status accepted = verify::accept(*record, program_, request_.profile_sha256);
+        if (Status accepted = verify::accept(*record, program_, request_.profile_sha256);
             !accepted) {
             return accepted;
         }
@@ -94,7 +94,7 @@ Status ProgramStream::check_gate() {
             "makes\n";
     }
     const std::vector<Objection> objections = examine_bounds(program_, request_.limits, {});
-    if (const Status judged = judge(objections, request_.allowed); !judged) {
+    if (Status judged = judge(objections, request_.allowed); !judged) {
         return judged;
     }
     for (const Objection& objection : objections) {
