@@ -26,41 +26,44 @@ Envelope::Envelope(const std::vector<Step>& steps, const MillJob& job) : steps_(
     rows_ = static_cast<int>(std::ceil(size.y() / kBucketMm)) + 1;
     buckets_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Step& step = steps[i];
-        if (step.rapid || step.tool < 0) {
-            continue;
-        }
-        const double r = job.tools[static_cast<std::size_t>(step.tool)].tool.radius_mm();
-        const Eigen::Vector2d low = step.from.head<2>().cwiseMin(step.to.head<2>()) - origin_;
-        const Eigen::Vector2d high = step.from.head<2>().cwiseMax(step.to.head<2>()) - origin_;
-        const auto clamped = [](double v, int count) {
-            return std::clamp(static_cast<int>(std::floor(v / kBucketMm)), 0, count - 1);
-        };
-        const Eigen::Vector2d way = (step.to - step.from).head<2>();
-        const double length = way.norm();
-        for (int row = clamped(low.y() - r, rows_); row <= clamped(high.y() + r, rows_); ++row) {
-            for (int column = clamped(low.x() - r, columns_);
-                 column <= clamped(high.x() + r, columns_); ++column) {
-                // Long slanted steps do not fill their box.
-                const Eigen::Vector2d centre =
-                    origin_ + Eigen::Vector2d(column + 0.5, row + 0.5) * kBucketMm;
-                const Eigen::Vector2d to_centre = centre - step.from.head<2>();
-                const double off =
-                    length > 0
-                        ? std::abs(way.x() * to_centre.y() - way.y() * to_centre.x()) / length
-                        : 0;
-                if (off <= r + kBucketMm) {
-                    buckets_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                             static_cast<std::size_t>(column)]
-                        .steps.push_back(static_cast<std::uint32_t>(i));
-                }
-            }
+        if (!steps[i].rapid && steps[i].tool >= 0) {
+            enter(i);
         }
     }
     for (Bucket& bucket : buckets_) {
         std::stable_sort(
             bucket.steps.begin(), bucket.steps.end(),
             [&](std::uint32_t a, std::uint32_t b) { return low_z(steps_[a]) < low_z(steps_[b]); });
+    }
+}
+
+/// Enters a cut into every bucket that its tool may come over.
+void Envelope::enter(std::size_t index) {
+    const Step& step = steps_[index];
+    const double r = job_.tools[static_cast<std::size_t>(step.tool)].tool.radius_mm();
+    const Eigen::Vector2d low = step.from.head<2>().cwiseMin(step.to.head<2>()) - origin_;
+    const Eigen::Vector2d high = step.from.head<2>().cwiseMax(step.to.head<2>()) - origin_;
+    const auto clamped = [](double v, int count) {
+        return std::clamp(static_cast<int>(std::floor(v / kBucketMm)), 0, count - 1);
+    };
+    const Eigen::Vector2d way = (step.to - step.from).head<2>();
+    const double length = way.norm();
+    for (int row = clamped(low.y() - r, rows_); row <= clamped(high.y() + r, rows_); ++row) {
+        for (int column = clamped(low.x() - r, columns_); column <= clamped(high.x() + r, columns_);
+             ++column) {
+            // Long slanted steps do not fill their box.
+            const Eigen::Vector2d centre =
+                origin_ + Eigen::Vector2d(column + 0.5, row + 0.5) * kBucketMm;
+            const Eigen::Vector2d to_centre = centre - step.from.head<2>();
+            const double off =
+                length > 0 ? std::abs(way.x() * to_centre.y() - way.y() * to_centre.x()) / length
+                           : 0;
+            if (off <= r + kBucketMm) {
+                buckets_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                         static_cast<std::size_t>(column)]
+                    .steps.push_back(static_cast<std::uint32_t>(index));
+            }
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "cam/millproof/program_path.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,7 @@ class Envelope {
         std::vector<std::uint32_t> steps;  ///< by their lowest z
     };
 
+    void enter(std::size_t index);
     [[nodiscard]] const Bucket* bucket(const Eigen::Vector2d& at) const;
     [[nodiscard]] double lowest(const Step& step, const Eigen::Vector2d& at, double below) const;
 

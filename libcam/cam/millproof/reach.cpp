@@ -10,6 +10,8 @@ namespace {
 
 /// Beyond the part tools may go this far, in multiples of the largest radius.
 constexpr double kBorder = 1.1;
+/// mm: higher than any stock.
+constexpr float kUncut = 1e9F;
 
 struct Offset {
     int dx = 0;
@@ -23,102 +25,101 @@ std::vector<Offset> offsets_of(const tool::Tool& tool, double cell_mm) {
     for (int dy = -n; dy <= n; ++dy) {
         for (int dx = -n; dx <= n; ++dx) {
             const double r = std::hypot(dx, dy) * cell_mm;
-            if (r <= tool.radius_mm()) {
-                if (const auto lift = tool::cutter_height_mm(tool, r)) {
-                    out.push_back({dx, dy, static_cast<float>(*lift)});
-                }
+            if (r > tool.radius_mm()) {
+                continue;
+            }
+            if (const auto lift = tool::cutter_height_mm(tool, r)) {
+                out.push_back({dx, dy, static_cast<float>(*lift)});
             }
         }
     }
     return out;
 }
 
-/// out(c) = the largest of in(c + o) - lift(o), or the least of in(c + o) + lift(o).
-std::vector<float> swept(const std::vector<float>& in, int columns, int rows,
-                         const std::vector<Offset>& offsets, bool lower_onto, float outside) {
-    std::vector<float> out(in.size(), lower_onto ? outside : 1e9F);
+/// out(c) = better(out(c), in(c + o)) for each cell c that has a cell there.
+template <class Better>
+void sweep(const std::vector<float>& in, const Nodes& cells, const Offset& o, const Better& better,
+           std::vector<float>& out) {
+    const int first = std::max(0, -o.dx);
+    const int last = std::min(cells.columns, cells.columns - o.dx);
+    for (int row = std::max(0, -o.dy); row < std::min(cells.rows, cells.rows - o.dy); ++row) {
+        const float* from =
+            in.data() + static_cast<std::ptrdiff_t>(row + o.dy) * cells.columns + o.dx;
+        float* to = out.data() + static_cast<std::ptrdiff_t>(row) * cells.columns;
+        for (int x = first; x < last; ++x) {
+            to[x] = better(to[x], from[x]);
+        }
+    }
+}
+
+/// out(c) = the largest of in(c + o) - lift(o): the tool put down onto the map.
+std::vector<float> lowered_onto(const std::vector<float>& in, const Nodes& cells,
+                                const std::vector<Offset>& offsets, float floor) {
+    std::vector<float> out(in.size(), floor);
     for (const Offset& o : offsets) {
-        const int first = std::max(0, -o.dx);
-        const int last = std::min(columns, columns - o.dx);
-        for (int row = std::max(0, -o.dy); row < std::min(rows, rows - o.dy); ++row) {
-            const float* from =
-                in.data() + static_cast<std::ptrdiff_t>(row + o.dy) * columns + o.dx;
-            float* to = out.data() + static_cast<std::ptrdiff_t>(row) * columns;
-            if (lower_onto) {
-                for (int x = first; x < last; ++x) {
-                    to[x] = std::max(to[x], from[x] - o.lift);
-                }
-            } else {
-                for (int x = first; x < last; ++x) {
-                    to[x] = std::min(to[x], from[x] + o.lift);
-                }
+        sweep(
+            in, cells, o, [lift = o.lift](float a, float b) { return std::max(a, b - lift); }, out);
+    }
+    return out;
+}
+
+/// out(c) = the least of in(c + o) + lift(o): what the tool leaves.
+std::vector<float> left_by(const std::vector<float>& in, const Nodes& cells,
+                           const std::vector<Offset>& offsets) {
+    std::vector<float> out(in.size(), kUncut);
+    for (const Offset& o : offsets) {
+        sweep(
+            in, cells, o, [lift = o.lift](float a, float b) { return std::min(a, b + lift); }, out);
+    }
+    return out;
+}
+
+/// Heights of the part and of what is kept, never below the floor.
+std::vector<float> top_of(const MillJob& job, const Nodes& cells) {
+    std::vector<float> top(cells.count(), static_cast<float>(job.floor_z));
+    const auto raise = [&](std::size_t cell, double z) {
+        top[cell] = std::max(top[cell], static_cast<float>(z));
+    };
+    const auto raise_nearest = [&](const Eigen::Vector2d& at, double z) {
+        const Eigen::Vector2d place = (at - cells.origin) / cells.side;
+        const int column = static_cast<int>(std::lround(place.x()));
+        const int row = static_cast<int>(std::lround(place.y()));
+        if (column >= 0 && row >= 0 && column < cells.columns && row < cells.rows) {
+            raise(cells.index(column, row), z);
+        }
+    };
+    for (const decomp::mesh::Triangle& triangle : job.part->triangles) {
+        visit_nodes(*job.part, triangle, cells, raise);
+    }
+    for (const Eigen::AlignedBox3d& keep : job.keeps) {
+        for (double y = keep.min().y(); y <= keep.max().y(); y += cells.side) {
+            for (double x = keep.min().x(); x <= keep.max().x(); x += cells.side) {
+                raise_nearest({x, y}, keep.max().z());
             }
         }
     }
-    return out;
+    return top;
 }
 
 }  // namespace
 
-Reach::Reach(const MillJob& job, double cell_mm) : cell_mm_(cell_mm) {
+Reach::Reach(const MillJob& job, double cell_mm) {
     double radius = 0;
     for (const ProofTool& tool : job.tools) {
         radius = std::max(radius, tool.tool.radius_mm());
     }
-    origin_ = job.stock.min().head<2>().array() - kBorder * radius;
+    cells_.side = cell_mm;
+    cells_.origin = job.stock.min().head<2>().array() - kBorder * radius;
     const Eigen::Vector2d far = job.stock.max().head<2>().array() + kBorder * radius;
-    columns_ = static_cast<int>(std::ceil((far.x() - origin_.x()) / cell_mm)) + 1;
-    rows_ = static_cast<int>(std::ceil((far.y() - origin_.y()) / cell_mm)) + 1;
-    const auto floor = static_cast<float>(job.floor_z);
-    std::vector<float> top(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
-                           floor);
-    const auto raise = [&](double x, double y, double z) {
-        const int column = static_cast<int>(std::lround((x - origin_.x()) / cell_mm_));
-        const int row = static_cast<int>(std::lround((y - origin_.y()) / cell_mm_));
-        if (column >= 0 && row >= 0 && column < columns_ && row < rows_) {
-            float& cell = top[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                              static_cast<std::size_t>(column)];
-            cell = std::max(cell, static_cast<float>(z));
-        }
-    };
-    for (const decomp::mesh::Triangle& triangle : job.part->triangles) {
-        const Eigen::Vector3d& a = job.part->points[triangle[0]];
-        const Eigen::Vector3d& b = job.part->points[triangle[1]];
-        const Eigen::Vector3d& c = job.part->points[triangle[2]];
-        const double area2 = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-        if (!(area2 > 0)) {
-            continue;  // looks down, or stands upright
-        }
-        const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
-        const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
-        const auto first = [&](double v, int axis) {
-            return static_cast<int>(std::ceil((v - origin_[axis]) / cell_mm_));
-        };
-        for (int row = first(low.y(), 1); origin_.y() + row * cell_mm_ <= high.y(); ++row) {
-            for (int column = first(low.x(), 0); origin_.x() + column * cell_mm_ <= high.x();
-                 ++column) {
-                const double x = origin_.x() + column * cell_mm_;
-                const double y = origin_.y() + row * cell_mm_;
-                const double u = ((x - a.x()) * (c - a).y() - (y - a.y()) * (c - a).x()) / area2;
-                const double v = ((b - a).x() * (y - a.y()) - (b - a).y() * (x - a.x())) / area2;
-                if (u >= 0 && v >= 0 && u + v <= 1) {
-                    raise(x, y, a.z() + u * (b - a).z() + v * (c - a).z());
-                }
-            }
-        }
-    }
-    for (const Eigen::AlignedBox3d& keep : job.keeps) {
-        for (double y = keep.min().y(); y <= keep.max().y(); y += cell_mm_) {
-            for (double x = keep.min().x(); x <= keep.max().x(); x += cell_mm_) {
-                raise(x, y, keep.max().z());
-            }
-        }
-    }
-    closed_.assign(top.size(), 1e9F);
+    cells_.columns = static_cast<int>(std::ceil((far.x() - cells_.origin.x()) / cell_mm)) + 1;
+    cells_.rows = static_cast<int>(std::ceil((far.y() - cells_.origin.y()) / cell_mm)) + 1;
+    const std::vector<float> top = top_of(job, cells_);
+    closed_.assign(top.size(), kUncut);
     for (const ProofTool& tool : job.tools) {
-        const std::vector<Offset> offsets = offsets_of(tool.tool, cell_mm_);
-        const std::vector<float> lowered = swept(top, columns_, rows_, offsets, true, floor);
-        const std::vector<float> left = swept(lowered, columns_, rows_, offsets, false, floor);
+        const std::vector<Offset> offsets = offsets_of(tool.tool, cell_mm);
+        const std::vector<float> lowered =
+            lowered_onto(top, cells_, offsets, static_cast<float>(job.floor_z));
+        const std::vector<float> left = left_by(lowered, cells_, offsets);
         for (std::size_t i = 0; i < left.size(); ++i) {
             closed_[i] = std::min(closed_[i], left[i]);
         }
@@ -126,22 +127,20 @@ Reach::Reach(const MillJob& job, double cell_mm) : cell_mm_(cell_mm) {
 }
 
 std::array<double, 4> Reach::around(const Eigen::Vector2d& at) const {
-    const int column = static_cast<int>(std::floor((at.x() - origin_.x()) / cell_mm_));
-    const int row = static_cast<int>(std::floor((at.y() - origin_.y()) / cell_mm_));
+    const int column = static_cast<int>(std::floor((at.x() - cells_.origin.x()) / cells_.side));
+    const int row = static_cast<int>(std::floor((at.y() - cells_.origin.y()) / cells_.side));
     std::array<double, 4> out{};
     for (int i = 0; i < 4; ++i) {
-        const int x = std::clamp(column + i % 2, 0, columns_ - 1);
-        const int y = std::clamp(row + i / 2, 0, rows_ - 1);
-        out[static_cast<std::size_t>(i)] =
-            closed_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                    static_cast<std::size_t>(x)];
+        const int x = std::clamp(column + i % 2, 0, cells_.columns - 1);
+        const int y = std::clamp(row + i / 2, 0, cells_.rows - 1);
+        out[static_cast<std::size_t>(i)] = closed_[cells_.index(x, y)];
     }
     return out;
 }
 
 double Reach::level(const Eigen::Vector2d& at) const {
     const std::array<double, 4> z = around(at);
-    const Eigen::Vector2d cells = (at - origin_) / cell_mm_;
+    const Eigen::Vector2d cells = (at - cells_.origin) / cells_.side;
     const double u = cells.x() - std::floor(cells.x());
     const double v = cells.y() - std::floor(cells.y());
     return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);

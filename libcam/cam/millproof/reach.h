@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cam/millproof/heights.h"
 #include "cam/millproof/prove.h"
 
 #include <array>
@@ -24,10 +25,7 @@ class Reach {
   private:
     [[nodiscard]] std::array<double, 4> around(const Eigen::Vector2d& at) const;
 
-    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-    double cell_mm_ = 0;
-    int columns_ = 0;
-    int rows_ = 0;
+    Nodes cells_;
     std::vector<float> closed_;
 };
 

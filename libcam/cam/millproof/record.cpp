@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/millproof/record.h"
 
+#include "cam/millproof/heights.h"
 #include "decomp/base/hash.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -52,41 +54,27 @@ std::array<std::uint8_t, 3> colour(double deviation, double range) {
 }
 
 /// Heights of the part at the corners of squares, by its up-facing triangles; NaN where none is.
-std::vector<double> part_heights(const MillJob& job, const Eigen::Vector2d& origin, double side,
-                                 int columns, int rows) {
-    std::vector<double> out(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                            std::nan(""));
+std::vector<double> part_heights(const MillJob& job, const Nodes& corners) {
+    std::vector<double> out(corners.count(), std::nan(""));
     for (const decomp::mesh::Triangle& triangle : job.part->triangles) {
-        const Eigen::Vector3d& a = job.part->points[triangle[0]];
-        const Eigen::Vector3d& b = job.part->points[triangle[1]];
-        const Eigen::Vector3d& c = job.part->points[triangle[2]];
-        const double area2 = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-        if (!(area2 > 0)) {
-            continue;
-        }
-        const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
-        const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
-        const auto first = [&](int axis) {
-            return std::max(0, static_cast<int>(std::ceil((low[axis] - origin[axis]) / side)));
-        };
-        for (int row = first(1); row < rows && origin.y() + row * side <= high.y(); ++row) {
-            for (int column = first(0); column < columns && origin.x() + column * side <= high.x();
-                 ++column) {
-                const double x = origin.x() + column * side - a.x();
-                const double y = origin.y() + row * side - a.y();
-                const double u = (x * (c - a).y() - y * (c - a).x()) / area2;
-                const double v = ((b - a).x() * y - (b - a).y() * x) / area2;
-                if (u >= 0 && v >= 0 && u + v <= 1) {
-                    double& at =
-                        out[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                            static_cast<std::size_t>(column)];
-                    const double z = a.z() + u * (b - a).z() + v * (c - a).z();
-                    at = std::isnan(at) ? z : std::max(at, z);
-                }
-            }
-        }
+        visit_nodes(*job.part, triangle, corners, [&](std::size_t corner, double z) {
+            double& at = out[corner];
+            at = std::isnan(at) ? z : std::max(at, z);
+        });
     }
     return out;
+}
+
+/// The colour of a square by its mildest corner: on a wall one lies below and one above.
+std::array<std::uint8_t, 3> colour_of(const std::array<double, 4>& deviations, double range) {
+    double mildest = std::nan("");
+    for (const double here : deviations) {
+        if (!std::isnan(here) && (std::isnan(mildest) || std::abs(here) < std::abs(mildest))) {
+            mildest = here;
+        }
+    }
+    return std::isnan(mildest) ? std::array<std::uint8_t, 3>{170, 170, 170}
+                               : colour(mildest, range);
 }
 
 }  // namespace
@@ -127,41 +115,35 @@ std::string proof_json(const MillProof& proof, std::string_view program, const M
 
 DeviationMesh deviation_mesh(const StockMap& stock, const MillJob& job, double range_mm, int step) {
     DeviationMesh out;
-    const int columns = (stock.columns - 1) / step + 1;
-    const int rows = (stock.rows - 1) / step + 1;
-    const double side = stock.cell_mm * step;
-    const Eigen::Vector2d origin = stock.origin.array() + stock.cell_mm / 2;
-    const std::vector<double> part = part_heights(job, origin, side, columns, rows);
-    const auto index = [&](int column, int row) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column);
-    };
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            const float z = stock.height[static_cast<std::size_t>(row * step) *
-                                             static_cast<std::size_t>(stock.columns) +
-                                         static_cast<std::size_t>(column * step)];
-            out.mesh.points.emplace_back(origin.x() + column * side, origin.y() + row * side, z);
+    Nodes nodes;
+    nodes.origin = stock.origin.array() + stock.cell_mm / 2;
+    nodes.side = stock.cell_mm * step;
+    nodes.columns = (stock.columns - 1) / step + 1;
+    nodes.rows = (stock.rows - 1) / step + 1;
+    const std::vector<double> part = part_heights(job, nodes);
+    std::vector<Eigen::Vector3d>& points = out.mesh.points;
+    points.reserve(nodes.count());
+    for (int row = 0; row < nodes.rows; ++row) {
+        for (int column = 0; column < nodes.columns; ++column) {
+            const float z =
+                stock.height[static_cast<std::size_t>(row) * static_cast<std::size_t>(step) *
+                                 static_cast<std::size_t>(stock.columns) +
+                             static_cast<std::size_t>(column) * static_cast<std::size_t>(step)];
+            points.emplace_back(nodes.origin.x() + column * nodes.side,
+                                nodes.origin.y() + row * nodes.side, z);
         }
     }
-    for (int row = 0; row + 1 < rows; ++row) {
-        for (int column = 0; column + 1 < columns; ++column) {
-            const std::size_t a = index(column, row);
-            const std::size_t corners[4] = {a, a + 1, index(column + 1, row + 1),
-                                            index(column, row + 1)};
-            // The mildest corner: on a wall one lies below and one above.
-            double deviation = std::nan("");
-            for (const std::size_t corner : corners) {
-                const double here = out.mesh.points[corner].z() - part[corner];
-                if (!std::isnan(here) &&
-                    (std::isnan(deviation) || std::abs(here) < std::abs(deviation))) {
-                    deviation = here;
-                }
+    for (int row = 0; row + 1 < nodes.rows; ++row) {
+        for (int column = 0; column + 1 < nodes.columns; ++column) {
+            const std::array<std::size_t, 4> corners{
+                nodes.index(column, row), nodes.index(column + 1, row),
+                nodes.index(column + 1, row + 1), nodes.index(column, row + 1)};
+            std::array<double, 4> deviations{};
+            for (std::size_t i = 0; i < 4; ++i) {
+                deviations[i] = points[corners[i]].z() - part[corners[i]];
             }
-            const std::array<std::uint8_t, 3> paint =
-                std::isnan(deviation) ? std::array<std::uint8_t, 3>{170, 170, 170}
-                                      : colour(deviation, range_mm);
-            const auto at = [&](int i) { return static_cast<std::uint32_t>(corners[i]); };
+            const std::array<std::uint8_t, 3> paint = colour_of(deviations, range_mm);
+            const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(corners[i]); };
             out.mesh.triangles.push_back({at(0), at(1), at(2)});
             out.mesh.triangles.push_back({at(0), at(2), at(3)});
             out.colours.push_back(paint);
@@ -179,7 +161,9 @@ std::string deviation_ply(const DeviationMesh& mesh) {
                       "\nproperty list uchar int vertex_indices\nproperty uchar red\n"
                       "property uchar green\nproperty uchar blue\nend_header\n";
     for (const Eigen::Vector3d& point : mesh.mesh.points) {
-        append(out, Eigen::Vector3f(point.cast<float>()));
+        append(out, static_cast<float>(point.x()));
+        append(out, static_cast<float>(point.y()));
+        append(out, static_cast<float>(point.z()));
     }
     for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
         append(out, std::uint8_t{3});

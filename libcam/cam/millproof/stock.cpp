@@ -14,6 +14,51 @@ constexpr double kTouchMm = 0.1;
 /// Shank and holder are looked at this often along a step.
 constexpr double kShaftStepMm = 1;
 
+/// Stock that hangs together above the bottom.
+struct Piece {
+    long cells = 0;
+    bool held = false;  ///< reaches the border
+    long line = 0;      ///< the last that cut beside it
+};
+
+/// The piece about a cell; its cells become seen.
+Piece flood(const StockMap& map, float bottom, std::size_t start, std::vector<char>& seen) {
+    const auto columns = static_cast<std::size_t>(map.columns);
+    const auto rows = static_cast<std::size_t>(map.rows);
+    Piece piece;
+    std::vector<std::size_t> stack{start};
+    seen[start] = 1;
+    while (!stack.empty()) {
+        const std::size_t cell = stack.back();
+        stack.pop_back();
+        ++piece.cells;
+        const std::size_t x = cell % columns;
+        const std::size_t y = cell / columns;
+        piece.held = piece.held || x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
+        const auto go = [&](std::size_t to) {
+            if (map.height[to] <= bottom) {
+                piece.line = std::max(piece.line, static_cast<long>(map.line[to]));
+            } else if (seen[to] == 0) {
+                seen[to] = 1;
+                stack.push_back(to);
+            }
+        };
+        if (x > 0) {
+            go(cell - 1);
+        }
+        if (x + 1 < columns) {
+            go(cell + 1);
+        }
+        if (y > 0) {
+            go(cell - columns);
+        }
+        if (y + 1 < rows) {
+            go(cell + columns);
+        }
+    }
+    return piece;
+}
+
 }  // namespace
 
 Stock::Stock(const MillJob& job, double cell_mm) : job_(job) {
@@ -63,7 +108,7 @@ void Stock::around(const Eigen::Vector3d& at, double radius, Visit visit) {
 }
 
 void Stock::cut(const Cutter& cutter, const Eigen::Vector3d& at, long line) {
-    const float z = static_cast<float>(at.z());
+    const auto z = static_cast<float>(at.z());
     around(at, cutter.radius, [&](std::size_t cell, double r2) {
         const float low = z + cutter.lift[static_cast<std::size_t>(r2 * cutter.scale)];
         if (low < map_.height[cell]) {
@@ -78,7 +123,7 @@ bool Stock::touches(const Cutter& cutter, const Eigen::Vector3d& at) {
         return false;
     }
     bool hit = false;
-    const float z = static_cast<float>(at.z() + kTouchMm);
+    const auto z = static_cast<float>(at.z() + kTouchMm);
     // The outermost cells are left out: they stand for ground beyond the tool.
     around(at, std::max(0.0, cutter.radius - map_.cell_mm), [&](std::size_t cell, double r2) {
         hit =
@@ -120,46 +165,52 @@ bool Stock::in_clamp(const tool::Tool& tool, const Eigen::Vector3d& at) const {
 }
 
 void Stock::run(const std::vector<Step>& steps, std::vector<Fault>& faults) {
-    long told_rapid = 0;
-    long told_shaft = 0;
-    long told_clamp = 0;
+    Told told;
     for (const Step& step : steps) {
-        if (step.tool < 0) {
-            continue;
+        if (step.tool >= 0) {
+            run_step(step, told, faults);
         }
-        const tool::Tool& tool = job_.tools[static_cast<std::size_t>(step.tool)].tool;
-        const Cutter& cutter = cutters_[static_cast<std::size_t>(step.tool)];
-        const Eigen::Vector3d way = step.to - step.from;
-        const double across = way.head<2>().norm();
-        const double finest =
-            std::max(across, std::min(std::abs(way.z()), step.rapid ? 1e9 : across));
-        const int pieces = std::max(1, static_cast<int>(std::ceil(finest / (map_.cell_mm * 0.5))));
-        const int look = std::max(
-            1, static_cast<int>(kShaftStepMm * pieces / std::max(way.norm(), map_.cell_mm)));
-        for (int i = 0; i <= pieces; ++i) {
-            Eigen::Vector3d at = step.from + way * (i / static_cast<double>(pieces));
-            if (step.rapid) {
-                // Axes run at their own speeds: across a slope the lower end counts everywhere.
-                at.z() = across > 0 ? std::min(step.from.z(), step.to.z()) : at.z();
-                if (told_rapid != step.line && touches(cutter, at)) {
-                    told_rapid = step.line;
-                    ++rapid_hits_;
-                    faults.push_back({"rapid", step.line, "a rapid through the stock"});
-                }
-            } else {
-                cut(cutter, at, step.line);
+    }
+}
+
+void Stock::run_step(const Step& step, Told& told, std::vector<Fault>& faults) {
+    const Cutter& cutter = cutters_[static_cast<std::size_t>(step.tool)];
+    const Eigen::Vector3d way = step.to - step.from;
+    const double across = way.head<2>().norm();
+    const double finest = std::max(across, std::min(std::abs(way.z()), step.rapid ? 1e9 : across));
+    const int pieces = std::max(1, static_cast<int>(std::ceil(finest / (map_.cell_mm * 0.5))));
+    const int look =
+        std::max(1, static_cast<int>(kShaftStepMm * pieces / std::max(way.norm(), map_.cell_mm)));
+    for (int i = 0; i <= pieces; ++i) {
+        Eigen::Vector3d at = step.from + way * (i / static_cast<double>(pieces));
+        if (step.rapid) {
+            // Axes run at their own speeds: across a slope the lower end counts everywhere.
+            at.z() = across > 0 ? std::min(step.from.z(), step.to.z()) : at.z();
+            if (told.rapid != step.line && touches(cutter, at)) {
+                told.rapid = step.line;
+                ++rapid_hits_;
+                faults.push_back({"rapid", step.line, "a rapid through the stock"});
             }
-            if (i % look == 0 || i == pieces) {
-                if (told_shaft != step.line && shaft_touches(tool, at)) {
-                    told_shaft = step.line;
-                    faults.push_back({"holder", step.line, "shank or holder in the stock"});
-                }
-                if (told_clamp != step.line && in_clamp(tool, at)) {
-                    told_clamp = step.line;
-                    faults.push_back({"clamp", step.line, "tool or holder in a clamp"});
-                }
-            }
+        } else {
+            cut(cutter, at, step.line);
         }
+        if (i % look == 0 || i == pieces) {
+            look_at_body(step, at, told, faults);
+        }
+    }
+}
+
+/// Shank and holder while the tip is at a place.
+void Stock::look_at_body(const Step& step, const Eigen::Vector3d& at, Told& told,
+                         std::vector<Fault>& faults) {
+    const tool::Tool& tool = job_.tools[static_cast<std::size_t>(step.tool)].tool;
+    if (told.shaft != step.line && shaft_touches(tool, at)) {
+        told.shaft = step.line;
+        faults.push_back({"holder", step.line, "shank or holder in the stock"});
+    }
+    if (told.clamp != step.line && in_clamp(tool, at)) {
+        told.clamp = step.line;
+        faults.push_back({"clamp", step.line, "tool or holder in a clamp"});
     }
 }
 
@@ -167,48 +218,16 @@ void Stock::look_for_loose_pieces(std::vector<Fault>& faults) const {
     if (!job_.border_holds) {
         return;
     }
-    const float bottom = static_cast<float>(job_.stock.min().z() + kTouchMm);
+    const auto bottom = static_cast<float>(job_.stock.min().z() + kTouchMm);
     std::vector<char> seen(map_.height.size(), 0);
-    std::vector<std::size_t> stack;
-    const std::size_t columns = static_cast<std::size_t>(map_.columns);
-    // A piece: how many cells, whether it reaches the border, and the last line that cut beside it.
-    const auto flood = [&](std::size_t start, bool& held, long& line) {
-        long cells = 0;
-        stack.assign(1, start);
-        seen[start] = 1;
-        while (!stack.empty()) {
-            const std::size_t cell = stack.back();
-            stack.pop_back();
-            ++cells;
-            const std::size_t x = cell % columns;
-            const std::size_t y = cell / columns;
-            held = held || x == 0 || y == 0 || x + 1 == columns ||
-                   y + 1 == static_cast<std::size_t>(map_.rows);
-            const auto go = [&](std::size_t to) {
-                if (map_.height[to] <= bottom) {
-                    line = std::max(line, static_cast<long>(map_.line[to]));
-                } else if (seen[to] == 0) {
-                    seen[to] = 1;
-                    stack.push_back(to);
-                }
-            };
-            if (x > 0) go(cell - 1);
-            if (x + 1 < columns) go(cell + 1);
-            if (y > 0) go(cell - columns);
-            if (y + 1 < static_cast<std::size_t>(map_.rows)) go(cell + columns);
-        }
-        return cells;
-    };
     for (std::size_t cell = 0; cell < map_.height.size(); ++cell) {
         if (seen[cell] != 0 || map_.height[cell] <= bottom) {
             continue;
         }
-        bool held = false;
-        long line = 0;
-        const double area =
-            static_cast<double>(flood(cell, held, line)) * map_.cell_mm * map_.cell_mm;
-        if (!held && area > 1) {
-            faults.push_back({"loose", line, "a piece of the stock is cut free"});
+        const Piece piece = flood(map_, bottom, cell, seen);
+        const double area = static_cast<double>(piece.cells) * map_.cell_mm * map_.cell_mm;
+        if (!piece.held && area > 1) {
+            faults.push_back({"loose", piece.line, "a piece of the stock is cut free"});
         }
     }
 }

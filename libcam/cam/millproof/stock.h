@@ -29,6 +29,16 @@ class Stock {
         double radius = 0;
     };
 
+    /// The line of the last fault of each kind: each line is blamed once.
+    struct Told {
+        long rapid = 0;
+        long shaft = 0;
+        long clamp = 0;
+    };
+
+    void run_step(const Step& step, Told& told, std::vector<Fault>& faults);
+    void look_at_body(const Step& step, const Eigen::Vector3d& at, Told& told,
+                      std::vector<Fault>& faults);
     template <class Visit>
     void around(const Eigen::Vector3d& at, double radius, Visit visit);
     void cut(const Cutter& cutter, const Eigen::Vector3d& at, long line);
