@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/mill/finish.h"
 
+#include "cam/mill/maps.h"
 #include "cam/mill/order.h"
+#include "cam/mill/trace.h"
 #include "decomp/base/parallel.h"
 
 #include <algorithm>
@@ -116,15 +118,14 @@ struct Grid {
 
 class Finishing {
   public:
-    Finishing(Writer& writer, const StockMaps& maps, const Bench& bench, const Cutter& cutter,
-              const MillTask& task, Tip tip)
-        : writer_(writer),
-          bench_(bench),
+    Finishing(const Work& work, const Cutter& cutter, Tip tip)
+        : writer_(work.writer),
+          bench_(work.bench),
           cutter_(cutter),
-          task_(task),
+          task_(work.task),
           tip_(std::move(tip)),
-          air_(air_tips(maps.stock, cutter.tool)),
-          room_(axis_room(bench, cutter.tool)) {}
+          air_(air_tips(work.maps.stock, cutter.tool)),
+          room_(axis_room(work.bench, cutter.tool)) {}
 
     [[nodiscard]] bool sample(double step, decomp::Run& run) {
         const double angle = task_.lines.radians();
@@ -267,17 +268,7 @@ class Finishing {
         for (int row = 0; row < out.rows; ++row) {
             for (int column = 0; column < out.columns; ++column) {
                 const Vector2d at = out.low_mm + out.cell_mm * Vector2d(column, row);
-                const Vector2d from = at - grid_.origin;
-                const int c = static_cast<int>(std::lround(from.dot(grid_.along) / grid_.step));
-                const int r = static_cast<int>(std::lround(from.dot(grid_.across) / grid_.step));
-                double z = bench_.program.safe_z;
-                if (c >= 0 && r >= 0 && c < grid_.lattice.columns && r < grid_.lattice.rows) {
-                    const std::size_t i = grid_.lattice.index(c, r);
-                    if (line_[i] != 0 || level_[i] != 0) {
-                        z = highest_around(c, r);
-                    }
-                }
-                out.z_mm[out.index(column, row)] = static_cast<float>(z);
+                out.z_mm[out.index(column, row)] = static_cast<float>(height_at(at));
             }
         }
         return out;
@@ -291,6 +282,19 @@ class Finishing {
     }
 
   private:
+    /// The highest that the tip has been around a place; the safe height where it has not been.
+    [[nodiscard]] double height_at(const Vector2d& at) const {
+        const Vector2d from = at - grid_.origin;
+        const int column = static_cast<int>(std::lround(from.dot(grid_.along) / grid_.step));
+        const int row = static_cast<int>(std::lround(from.dot(grid_.across) / grid_.step));
+        if (column < 0 || row < 0 || column >= grid_.lattice.columns || row >= grid_.lattice.rows) {
+            return bench_.program.safe_z;
+        }
+        const std::size_t i = grid_.lattice.index(column, row);
+        return line_[i] != 0 || level_[i] != 0 ? highest_around(column, row)
+                                               : bench_.program.safe_z;
+    }
+
     [[nodiscard]] bool inside(const Vector2d& at) const { return room_.contains(at); }
 
     [[nodiscard]] bool usable(int column, int row) const {
@@ -407,28 +411,40 @@ class Finishing {
         }
     }
 
+    /// Where a chain may be entered.
+    struct Entry {
+        std::size_t chain = 0;
+        std::size_t corner = 0;
+    };
+
+    /// The entry nearest to where the tip is, of chains that are not done: a closed one is entered
+    /// at any corner.
+    [[nodiscard]] Entry nearest_entry(const std::vector<Chain>& chains,
+                                      const std::vector<char>& done) const {
+        const Vector2d at = writer_.at() ? Vector2d(writer_.at()->head<2>()) : room_.min();
+        Entry best;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            const std::size_t starts = chains[i].closed ? chains[i].points.size() : 1;
+            for (std::size_t j = 0; done[i] == 0 && j < starts; ++j) {
+                const double away = (grid_.place(chains[i].points[j]) - at).squaredNorm();
+                if (away < nearest) {
+                    nearest = away;
+                    best = {i, j};
+                }
+            }
+        }
+        return best;
+    }
+
     void level_lines(std::vector<Chain>& chains, double z) {
         std::vector<char> done(chains.size(), 0);
         for (std::size_t count = 0; count < chains.size(); ++count) {
-            const Vector2d at = writer_.at() ? Vector2d(writer_.at()->head<2>()) : room_.min();
-            std::size_t best = 0;
-            std::size_t corner = 0;
-            double nearest = std::numeric_limits<double>::infinity();
-            for (std::size_t i = 0; i < chains.size(); ++i) {
-                const std::size_t starts = chains[i].closed ? chains[i].points.size() : 1;
-                for (std::size_t j = 0; done[i] == 0 && j < starts; ++j) {
-                    const double away = (grid_.place(chains[i].points[j]) - at).squaredNorm();
-                    if (away < nearest) {
-                        nearest = away;
-                        best = i;
-                        corner = j;
-                    }
-                }
-            }
-            done[best] = 1;
-            Chain& chain = chains[best];
+            const Entry entry = nearest_entry(chains, done);
+            done[entry.chain] = 1;
+            Chain& chain = chains[entry.chain];
             std::rotate(chain.points.begin(),
-                        chain.points.begin() + static_cast<std::ptrdiff_t>(corner),
+                        chain.points.begin() + static_cast<std::ptrdiff_t>(entry.corner),
                         chain.points.end());
             if (chain.closed) {
                 chain.points.push_back(chain.points.front());
@@ -533,13 +549,14 @@ class Finishing {
 
 }  // namespace
 
-decomp::Result<Finished> finish(Writer& writer, StockMaps& maps, const Bench& bench,
-                                const cutter::Surface& surface, const Cutter& cutter,
-                                bool rest_only, const MillTask& task, decomp::Run& run) {
-    const HeightMap body = body_tips(maps.stock, cutter.tool, task);
-    Finishing finishing(writer, maps, bench, cutter, task,
-                        Tip(surface, cutter.tool, body, bench.floor_z));
-    const double step = stepover_mm(cutter.tool, task.scallop_mm);
+decomp::Result<Finished> finish(const Work& work, const cutter::Surface& surface,
+                                const Cutter& cutter, bool rest_only, decomp::Run& run) {
+    const Bench& bench = work.bench;
+    HeightMap& stock = work.maps.stock;
+    Finishing finishing(
+        work, cutter,
+        Tip(surface, cutter.tool, body_tips(stock, cutter.tool, work.task), bench.floor_z));
+    const double step = stepover_mm(cutter.tool, work.task.scallop_mm);
     if (!finishing.sample(step, run)) {
         return decomp::cancelled();
     }
@@ -549,21 +566,21 @@ decomp::Result<Finished> finish(Writer& writer, StockMaps& maps, const Bench& be
         return decomp::cancelled();
     }
     finishing.lines();
-    remove(maps.stock, finishing.heights_on(maps.stock), cutter.tool);
+    remove(stock, finishing.heights_on(stock), cutter.tool);
     return finishing.figures();
 }
 
-decomp::Status contour(Writer& writer, StockMaps& maps, const Bench& bench,
-                       const cutter::Surface& surface, const Cutter& cutter, double from_z,
-                       double step_mm, const MillTask& task, decomp::Run& run) {
-    const HeightMap body = body_tips(maps.stock, cutter.tool, task);
-    Finishing finishing(writer, maps, bench, cutter, task,
-                        Tip(surface, cutter.tool, body, bench.floor_z));
+decomp::Status contour(const Work& work, const cutter::Surface& surface, const Cutter& cutter,
+                       double from_z, double step_mm, decomp::Run& run) {
+    const double floor_z = work.bench.floor_z;
+    Finishing finishing(
+        work, cutter,
+        Tip(surface, cutter.tool, body_tips(work.maps.stock, cutter.tool, work.task), floor_z));
     if (!finishing.sample(step_mm, run)) {
         return decomp::cancelled();
     }
     finishing.mark_all_levels();
-    finishing.levels(from_z, bench.floor_z, step_mm);
+    finishing.levels(from_z, floor_z, step_mm);
     return {};
 }
 

@@ -3,16 +3,11 @@
 
 #include "cam/cutter/drop_cutter.h"
 #include "cam/cutter/surface.h"
-#include "cam/mill/maps.h"
-#include "cam/mill/setup.h"
 #include "cam/mill/task.h"
-#include "cam/mill/trace.h"
-#include "cam/mill/writer.h"
+#include "cam/mill/work.h"
 #include "decomp/base/run.h"
 
-#include <Eigen/Core>
-
-#include <vector>
+#include <cstddef>
 
 namespace cam::mill {
 
@@ -31,17 +26,15 @@ struct Finished {
 /// tolerance. Updates the map of the stock.
 /// @param rest_only  only where the stock stands more than the allowance's rest over the part
 /// @error run.cancelled
-[[nodiscard]] decomp::Result<Finished> finish(Writer& writer, StockMaps& maps, const Bench& bench,
-                                              const cutter::Surface& surface, const Cutter& cutter,
-                                              bool rest_only, const MillTask& task,
+[[nodiscard]] decomp::Result<Finished> finish(const Work& work, const cutter::Surface& surface,
+                                              const Cutter& cutter, bool rest_only,
                                               decomp::Run& run);
 
 /// The foot of the outline, where a round tip cannot go: level lines of a flat tool from `from_z`
 /// down to the floor, `step_mm` apart.
 /// @error run.cancelled
-[[nodiscard]] decomp::Status contour(Writer& writer, StockMaps& maps, const Bench& bench,
-                                     const cutter::Surface& surface, const Cutter& cutter,
-                                     double from_z, double step_mm, const MillTask& task,
+[[nodiscard]] decomp::Status contour(const Work& work, const cutter::Surface& surface,
+                                     const Cutter& cutter, double from_z, double step_mm,
                                      decomp::Run& run);
 
 }  // namespace cam::mill

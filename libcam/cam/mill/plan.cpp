@@ -4,6 +4,7 @@
 #include "cam/mill/finish.h"
 #include "cam/mill/maps.h"
 #include "cam/mill/rough.h"
+#include "cam/mill/work.h"
 #include "cam/mill/writer.h"
 #include "decomp/base/number.h"
 
@@ -127,10 +128,11 @@ decomp::Status plan_bench(Bench& bench, const Roles& roles, path::MillPlan& plan
     if (plan.programs.empty()) {
         bore_dowels(writer, bench.program, plan, *roles.rough.front());
     }
+    const Work work{bench, task, writer, *maps};
     const double standing = kStepOfFinisher * roles.finish.front()->tool.diameter_mm;
     bool rest = false;
     for (const Cutter* cutter : roles.rough) {
-        const auto done = rough(writer, *maps, bench, *cutter, rest, standing, task, run);
+        auto done = rough(work, *cutter, rest, standing, run);
         if (!done) {
             return done;
         }
@@ -142,16 +144,15 @@ decomp::Status plan_bench(Bench& bench, const Roles& roles, path::MillPlan& plan
     const double round = tool::cutter_height_mm(last, last.radius_mm()).value_or(0);
     const bool foot_is_open = bench.open && roles.foot != nullptr && round > 0;
     if (foot_is_open) {
-        const auto done =
-            contour(writer, *maps, bench, surface, *roles.foot,
-                    bench.floor_z + std::min(round, 3.0) + kFootStep, kFootStep, task, run);
+        auto done = contour(work, surface, *roles.foot,
+                            bench.floor_z + std::min(round, 3.0) + kFootStep, kFootStep, run);
         if (!done) {
             return done;
         }
     }
     rest = false;
     for (const Cutter* cutter : roles.finish) {
-        const auto done = finish(writer, *maps, bench, surface, *cutter, rest, task, run);
+        const auto done = finish(work, surface, *cutter, rest, run);
         if (!done) {
             return decomp::fail(done.error());
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/mill/rough.h"
 
+#include "cam/mill/maps.h"
 #include "cam/mill/trace.h"
 #include "cam/polygon/boolean.h"
 #include "cam/polygon/offset.h"
@@ -38,6 +39,29 @@ struct Level {
     double above = 0;  ///< everything the tool can reach is clear down to here
     Paths allowed;
 };
+
+/// A corner of one of several loops.
+struct Corner {
+    std::size_t loop = 0;
+    std::size_t corner = 0;
+};
+
+/// The corner nearest to a place, of loops that are not done.
+Corner nearest_corner(const std::vector<std::vector<Vector2d>>& loops,
+                      const std::vector<char>& done, const Vector2d& at) {
+    Corner best{loops.size(), 0};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        for (std::size_t j = 0; done[i] == 0 && j < loops[i].size(); ++j) {
+            const double away = (loops[i][j] - at).squaredNorm();
+            if (away < nearest) {
+                nearest = away;
+                best = {i, j};
+            }
+        }
+    }
+    return best;
+}
 
 class Roughing {
   public:
@@ -89,25 +113,13 @@ class Roughing {
         }
         std::vector<char> done(loops.size(), 0);
         for (std::size_t count = 0; count < loops.size(); ++count) {
-            std::size_t best = loops.size();
-            std::size_t corner = 0;
-            double nearest = std::numeric_limits<double>::infinity();
             const Vector2d at = writer_.at() ? Vector2d(writer_.at()->head<2>()) : Vector2d(0, 0);
-            for (std::size_t i = 0; i < loops.size(); ++i) {
-                for (std::size_t j = 0; done[i] == 0 && j < loops[i].size(); ++j) {
-                    const double away = (loops[i][j] - at).squaredNorm();
-                    if (away < nearest) {
-                        nearest = away;
-                        best = i;
-                        corner = j;
-                    }
-                }
-            }
-            done[best] = 1;
-            std::rotate(loops[best].begin(),
-                        loops[best].begin() + static_cast<std::ptrdiff_t>(corner),
-                        loops[best].end());
-            cut_ring(loops[best], level, first);
+            const Corner start = nearest_corner(loops, done, at);
+            done[start.loop] = 1;
+            std::vector<Vector2d>& loop = loops[start.loop];
+            std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(start.corner),
+                        loop.end());
+            cut_ring(loop, level, first);
             first = false;
         }
     }
@@ -161,15 +173,18 @@ class Roughing {
             z = std::max(level.z, z - fall);
             writer_.cut(Vector3d(to.x(), to.y(), z), cutter_.feeds.rough.ramp);
             if (z == level.z) {
-                // Round to where the ramp began: what lies under it is cut with the ring.
-                for (std::size_t j = (i + 2) % loop.size(); j != 1 % loop.size();
-                     j = (j + 1) % loop.size()) {
-                    const Vector2d& p = loop[j];
-                    writer_.cut(Vector3d(p.x(), p.y(), z), cutter_.feeds.slot.feed);
-                    if (j == 0) {
-                        break;
-                    }
-                }
+                run_to_start(loop, (i + 2) % loop.size(), z);
+            }
+        }
+    }
+
+    /// From a corner round to where the ramp began: what lies under it is cut with the ring.
+    void run_to_start(const std::vector<Vector2d>& loop, std::size_t corner, double z) {
+        for (std::size_t j = corner; j != 1 % loop.size(); j = (j + 1) % loop.size()) {
+            const Vector2d& p = loop[j];
+            writer_.cut(Vector3d(p.x(), p.y(), z), cutter_.feeds.slot.feed);
+            if (j == 0) {
+                break;
             }
         }
     }
@@ -241,11 +256,13 @@ void lower_inside(HeightMap& map, const Paths& region, float z) {
 
 }  // namespace
 
-decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench, const Cutter& cutter,
-                     bool rest_only, double deepest_step_mm, const MillTask& task,
+decomp::Status rough(const Work& work, const Cutter& cutter, bool rest_only, double deepest_step_mm,
                      decomp::Run& run) {
-    const HeightMap tips = lowest_tips_over(maps, bench, cutter.tool, task.allowance_mm, task);
-    const HeightMap air = air_tips(maps.stock, cutter.tool);
+    const Bench& bench = work.bench;
+    Writer& writer = work.writer;
+    const HeightMap tips =
+        lowest_tips_over(work.maps, bench, cutter.tool, work.task.allowance_mm, work.task);
+    const HeightMap air = air_tips(work.maps.stock, cutter.tool);
     const double top = bench.program.stock.max().z();
     const double step = std::min(cutter.feeds.rough.step_down_mm, deepest_step_mm);
     const int levels =
@@ -279,7 +296,7 @@ decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench, const 
         lower_inside(reached, level.allowed, static_cast<float>(level.z));
     }
     writer.retract();
-    remove(maps.stock, reached, cutter.tool);
+    remove(work.maps.stock, reached, cutter.tool);
     return {};
 }
 

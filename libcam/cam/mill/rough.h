@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cam/mill/maps.h"
-#include "cam/mill/setup.h"
 #include "cam/mill/task.h"
-#include "cam/mill/writer.h"
+#include "cam/mill/work.h"
 #include "decomp/base/run.h"
 
 namespace cam::mill {
@@ -16,8 +14,7 @@ namespace cam::mill {
 /// Of a second tool only what the first has left is cut.
 /// @param deepest_step_mm  of a level: what the finishing tool can take in one go
 /// @error run.cancelled
-[[nodiscard]] decomp::Status rough(Writer& writer, StockMaps& maps, const Bench& bench,
-                                   const Cutter& cutter, bool rest_only, double deepest_step_mm,
-                                   const MillTask& task, decomp::Run& run);
+[[nodiscard]] decomp::Status rough(const Work& work, const Cutter& cutter, bool rest_only,
+                                   double deepest_step_mm, decomp::Run& run);
 
 }  // namespace cam::mill

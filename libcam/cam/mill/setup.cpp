@@ -259,8 +259,8 @@ void add_tabs(Clamping& clamping, const decomp::part::Part& source, const TriMes
 }
 
 void add_frame(Clamping& clamping, const AlignedBox3d& stock, const Eigen::AlignedBox2d& room) {
-    const Vector3d low = stock.min();
-    const Vector3d high = stock.max();
+    const Vector3d& low = stock.min();
+    const Vector3d& high = stock.max();
     const auto keep = [&](double x0, double y0, double x1, double y1) {
         clamping.keeps.push_back(
             {path::MillKeep::Kind::Frame,

@@ -24,6 +24,23 @@ class Pieces {
         has_before_[to] = true;
     }
 
+    /// The pieces in one cell, by which of its corners are low. Counter-clockwise around the cell:
+    /// the line enters where low ends and leaves where it begins again, so that low lies to its
+    /// left.
+    template <class EdgeOf>
+    void cross(const std::array<bool, 4>& below, const EdgeOf& edge_of) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (below[i] && !below[(i + 1) % 4]) {
+                // Low corners that meet only across a saddle are apart: back to the nearest.
+                std::size_t j = i;
+                while (below[j]) {
+                    j = (j + 3) % 4;
+                }
+                add(edge_of(i), edge_of(j));
+            }
+        }
+    }
+
     template <class Place>
     [[nodiscard]] std::vector<Chain> chains(const Place& place) {
         std::vector<Chain> out;
@@ -95,18 +112,7 @@ std::vector<Chain> trace_level(
             if (count == 0 || count == 4 || (wanted && !wanted(column, row))) {
                 continue;
             }
-            // Counter-clockwise around the cell: the line enters where low ends and leaves where
-            // it begins again, so that low lies to its left.
-            for (std::size_t i = 0; i < 4; ++i) {
-                if (below[i] && !below[(i + 1) % 4]) {
-                    // Low corners that meet only across a saddle are apart: back to the nearest.
-                    std::size_t j = i;
-                    while (below[j]) {
-                        j = (j + 3) % 4;
-                    }
-                    pieces.add(edge_of(column, row, i), edge_of(column, row, j));
-                }
-            }
+            pieces.cross(below, [&](std::size_t side) { return edge_of(column, row, side); });
         }
     }
     return pieces.chains([&](Edge edge) -> Vector2d {

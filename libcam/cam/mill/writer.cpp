@@ -76,11 +76,8 @@ void Writer::take(const Cutter& cutter, double rpm, path::MillOperation operatio
 void Writer::approach(const Vector3d& to, double clear_z, decomp::Speed plunge) {
     retract();
     const double safe = program_->safe_z;
-    if (!at_) {
-        // The first move after a tool change: up before anything else, wherever the machine is.
-        at_ = Vector3d(to.x(), to.y(), safe);
-        add(path::MillRapid{*at_});
-    } else if ((*at_ - to).head<2>().norm() > kSamePoint) {
+    // The first move after a tool change goes up before anything else, wherever the machine is.
+    if (!at_ || (*at_ - to).head<2>().norm() > kSamePoint) {
         at_ = Vector3d(to.x(), to.y(), safe);
         add(path::MillRapid{*at_});
     }
