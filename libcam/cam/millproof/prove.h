@@ -42,7 +42,9 @@ struct ProofOptions {
     double sample_mm = 0.5;      ///< between points of the part's surface
     double max_gouge_mm = 0.02;  ///< along the normal
     double max_excess_mm = 0.1;  ///< along the normal, where the tools reach: 99.9 in 100 points
-    double reach_mm = 0.1;       ///< rest that still counts as reached
+    /// Where the tools leave more than this at best is out of reach; ridges come on top, so that
+    /// max_excess_mm must be larger by their height.
+    double reach_mm = 0.05;
 };
 
 /// What is wrong, and where: lines are counted from 1; 0: the whole program.

@@ -12,6 +12,10 @@ namespace {
 constexpr double kBorder = 1.1;
 /// mm: higher than any stock.
 constexpr float kUncut = 1e9F;
+/// Radii of a tool that are tried on a slope.
+constexpr int kRadii = 200;
+/// Faces whose normals rise less, in shares of their run, are upright.
+constexpr double kUprightShare = 1e-6;
 
 struct Offset {
     int dx = 0;
@@ -19,16 +23,18 @@ struct Offset {
     float lift = 0;
 };
 
-std::vector<Offset> offsets_of(const tool::Tool& tool, double cell_mm) {
+/// Cells under a tool whose rim is `rim` larger than it is.
+std::vector<Offset> offsets_of(const tool::Tool& tool, double cell_mm, double rim) {
     std::vector<Offset> out;
-    const int n = static_cast<int>(std::ceil(tool.radius_mm() / cell_mm));
+    const double radius = tool.radius_mm();
+    const int n = static_cast<int>(std::ceil((radius + rim) / cell_mm));
     for (int dy = -n; dy <= n; ++dy) {
         for (int dx = -n; dx <= n; ++dx) {
             const double r = std::hypot(dx, dy) * cell_mm;
-            if (r > tool.radius_mm()) {
+            if (r > radius + rim) {
                 continue;
             }
-            if (const auto lift = tool::cutter_height_mm(tool, r)) {
+            if (const auto lift = tool::cutter_height_mm(tool, std::min(r, radius))) {
                 out.push_back({dx, dy, static_cast<float>(*lift)});
             }
         }
@@ -61,6 +67,51 @@ std::vector<float> lowered_onto(const std::vector<float>& in, const Nodes& cells
             in, cells, o, [lift = o.lift](float a, float b) { return std::max(a, b - lift); }, out);
     }
     return out;
+}
+
+/// Where a tool rests on a slope: the radius at which its profile is as steep.
+struct Rest {
+    double radius = 0;
+    double lift = 0;
+};
+
+Rest rest_on(const tool::Tool& tool, double steepness) {
+    Rest best;
+    double most = 0;
+    for (int i = 0; i <= kRadii; ++i) {
+        const double r = tool.radius_mm() * i / kRadii;
+        const double lift = tool::cutter_height_mm(tool, r).value_or(0);
+        if (steepness * r - lift > most) {
+            most = steepness * r - lift;
+            best = {r, lift};
+        }
+    }
+    return best;
+}
+
+/// Raises the tool to where it rests on faces: between the cells of a steep face the map alone lets
+/// it sink into it.
+void rest_on_faces(const MillJob& job, const Nodes& cells, const tool::Tool& tool,
+                   std::vector<float>& lowered) {
+    for (const decomp::mesh::Triangle& triangle : job.part->triangles) {
+        const Eigen::Vector3d& a = job.part->points[triangle[0]];
+        const Eigen::Vector3d normal =
+            (job.part->points[triangle[1]] - a).cross(job.part->points[triangle[2]] - a);
+        const double across = normal.head<2>().norm();
+        if (!(normal.z() > kUprightShare * across)) {
+            continue;
+        }
+        const Rest rest = rest_on(tool, across / normal.z());
+        Eigen::Vector2d uphill(0, 0);
+        if (across > 0) {
+            uphill = -normal.head<2>() / across;
+        }
+        Nodes axes = cells;
+        axes.origin += rest.radius * uphill;
+        visit_nodes(*job.part, triangle, axes, [&](std::size_t cell, double z) {
+            lowered[cell] = std::max(lowered[cell], static_cast<float>(z - rest.lift));
+        });
+    }
 }
 
 /// out(c) = the least of in(c + o) + lift(o): what the tool leaves.
@@ -116,10 +167,13 @@ Reach::Reach(const MillJob& job, double cell_mm) {
     const std::vector<float> top = top_of(job, cells_);
     closed_.assign(top.size(), kUncut);
     for (const ProofTool& tool : job.tools) {
-        const std::vector<Offset> offsets = offsets_of(tool.tool, cell_mm);
-        const std::vector<float> lowered =
-            lowered_onto(top, cells_, offsets, static_cast<float>(job.floor_z));
-        const std::vector<float> left = left_by(lowered, cells_, offsets);
+        // A wall stands up to half a cell before the first cell that knows of it: a tool that just
+        // fits on the map does not fit.
+        std::vector<float> lowered =
+            lowered_onto(top, cells_, offsets_of(tool.tool, cell_mm, cell_mm / 2),
+                         static_cast<float>(job.floor_z));
+        rest_on_faces(job, cells_, tool.tool, lowered);
+        const std::vector<float> left = left_by(lowered, cells_, offsets_of(tool.tool, cell_mm, 0));
         for (std::size_t i = 0; i < left.size(); ++i) {
             closed_[i] = std::min(closed_[i], left[i]);
         }

@@ -12,7 +12,7 @@
 namespace cam::millproof {
 
 /// Raised whenever a checker of the same inputs may judge otherwise.
-inline constexpr int kMillCheckerVersion = 1;
+inline constexpr int kMillCheckerVersion = 2;
 
 /// The text of the sidecar `PROGRAM.proof.json` of a milling program (schema "hew.millproof/1",
 /// docs/formats.md): hashes of program, part and profile, options, figures, faults. Same proof,

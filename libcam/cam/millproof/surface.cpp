@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/millproof/surface.h"
 
+#include "cam/millproof/solid.h"
 #include "decomp/base/number.h"
 
 #include <algorithm>
@@ -18,9 +19,10 @@ constexpr double kSlackMm = 1e-4;
 /// Normals that rise less than this are walls' to the map of reach.
 constexpr double kSteep = 0.2;
 constexpr double kCellsOut = 1.5;
-/// In tolerances: how far around a point is looked for its edge.
-constexpr double kBrink = 1.5;
+/// Deeper gouges and higher rests are given as this.
 constexpr double kDeepestMm = 20;
+/// By how much farther from the surface is looked next.
+constexpr double kFarther = 1.3;
 constexpr int kBisections = 24;
 
 class Surface {
@@ -32,7 +34,8 @@ class Surface {
           steps_(steps),
           proof_(proof),
           envelope_(steps, job),
-          reach_(job, options.cell_mm) {}
+          reach_(job, options.cell_mm),
+          solid_(*job.part) {}
 
     void run() {
         for (const decomp::mesh::Triangle& t : job_.part->triangles) {
@@ -74,36 +77,52 @@ class Surface {
         }
     }
 
-    /// How deep along the normal the part was cut at a point.
+    /// How deep the part was cut at a point of its surface. Looked for along the normal, from the
+    /// surface down as far as the tools were; what counts is how deep below the whole surface it
+    /// lies there: beside an edge the normal of one face runs along another, or out of it.
     void gouge(const Eigen::Vector3d& at, const Eigen::Vector3d& normal) {
-        const double tolerance = options_.max_gouge_mm;
-        // At an edge a face's point stands on the brink of its neighbour: only what is cut all
-        // around it is a gouge.
-        const Eigen::Vector3d along = normal.unitOrthogonal() * (kBrink * tolerance);
-        const Eigen::Vector3d across = normal.cross(along);
-        const auto cut_at = [&](double depth) {
-            const Eigen::Vector3d there = at - normal * depth - Eigen::Vector3d(0, 0, kSlackMm);
-            const std::int64_t first = envelope_.cut_below(there);
-            const bool all = first >= 0 && envelope_.cut_below(there + along) >= 0 &&
-                             envelope_.cut_below(there - along) >= 0 &&
-                             envelope_.cut_below(there + across) >= 0 &&
-                             envelope_.cut_below(there - across) >= 0;
-            return all ? first : std::int64_t{-1};
+        const auto below = [&](double depth) -> Eigen::Vector3d {
+            return at - normal * depth - Eigen::Vector3d(0, 0, kSlackMm);
         };
-        const std::int64_t step = cut_at(tolerance);
+        const auto cut_at = [&](double depth) { return envelope_.cut_below(below(depth)) >= 0; };
+        double deepest = options_.max_gouge_mm;
+        std::int64_t step = -1;
+        const auto look = [&](double down) {
+            const double depth = solid_.depth(below(down), down + kSlackMm);
+            if (depth > deepest) {
+                deepest = depth;
+                step = envelope_.cut_below(below(down));
+            }
+            return depth > 0;
+        };
+        double cut = options_.max_gouge_mm;
+        if (!cut_at(cut)) {
+            return;
+        }
+        while (cut < kDeepestMm && look(cut)) {
+            const double next = std::min(cut * kFarther, kDeepestMm);
+            if (!cut_at(next)) {
+                look(between(cut, next, cut_at));
+                break;
+            }
+            cut = next;
+        }
         if (step < 0) {
             return;
         }
-        double good = kDeepestMm;
-        double bad = tolerance;
-        for (int i = 0; i < kBisections; ++i) {
-            const double middle = (good + bad) / 2;
-            const std::int64_t there = cut_at(middle);
-            (there < 0 ? good : bad) = middle;
-        }
-        proof_.figures.max_gouge_mm = std::max(proof_.figures.max_gouge_mm, bad);
+        proof_.figures.max_gouge_mm = std::max(proof_.figures.max_gouge_mm, deepest);
         double& worst = gouged_[steps_[static_cast<std::size_t>(step)].line];
-        worst = std::max(worst, bad);
+        worst = std::max(worst, deepest);
+    }
+
+    /// Where what holds at `yes` and not at `no` ends.
+    template <class Holds>
+    static double between(double yes, double no, const Holds& holds) {
+        for (int i = 0; i < kBisections; ++i) {
+            const double middle = (yes + no) / 2;
+            (holds(middle) ? yes : no) = middle;
+        }
+        return yes;
     }
 
     /// Whether some tool can come down to this point beside the surface.
@@ -124,22 +143,24 @@ class Surface {
     /// What stands on a point, along the normal, and whether a tool could have taken it.
     void left(const Eigen::Vector3d& at, const Eigen::Vector3d& normal, double area) {
         upward_ += area;
-        const double margin = std::max(options_.reach_mm, options_.max_excess_mm);
-        const Eigen::Vector3d beside = at + normal * margin;
+        const Eigen::Vector3d beside = at + normal * options_.reach_mm;
         const bool reachable = within_reach(beside, normal);
         const double stock_top = job_.stock.contains(beside) ? job_.stock.max().z() : -1e9;
         const auto excess_above = [&](double e) {
             const Eigen::Vector3d there = at + normal * e;
-            return job_.stock.contains(there) && stands_above(there, stock_top);
+            return job_.stock.contains(there) && stands_above(there, stock_top) &&
+                   !solid_.holds(there);
         };
         double excess = 0;
         if (excess_above(options_.max_excess_mm)) {
-            double high = kDeepestMm;
+            // The first gap ends it: beyond may stand another wall.
             excess = options_.max_excess_mm;
-            for (int i = 0; i < kBisections; ++i) {
-                const double middle = (high + excess) / 2;
-                (excess_above(middle) ? excess : high) = middle;
+            double high = excess * kFarther;
+            while (high < kDeepestMm && excess_above(high)) {
+                excess = high;
+                high *= kFarther;
             }
+            excess = high < kDeepestMm ? between(excess, high, excess_above) : kDeepestMm;
             left_ += area;
         } else {
             const double over = envelope_.over(at.head<2>(), stock_top).z - at.z();
@@ -238,6 +259,7 @@ class Surface {
     MillProof& proof_;
     Envelope envelope_;
     Reach reach_;
+    Solid solid_;
     std::map<long, double> gouged_;
     std::vector<std::pair<double, double>> heap_;  ///< excess and area, reachable
     double upward_ = 0;

@@ -71,6 +71,47 @@ TEST(Prove, AGougeOfABallOnASlopeIsMeasuredAlongTheNormal) {
     }
 }
 
+/// A block from (10, 8) to (30, 22) whose top rises along X from Z -8 to Z 0: the edge at X 30 is
+/// sharper than a right angle.
+decomp::mesh::TriMesh wedge() {
+    decomp::mesh::TriMesh mesh;
+    tests::add_quad(mesh, {10, 8, -8}, {30, 8, 0}, {30, 22, 0}, {10, 22, -8});
+    tests::add_quad(mesh, {30, 8, -10}, {30, 22, -10}, {30, 22, 0}, {30, 8, 0});
+    tests::add_quad(mesh, {10, 22, -10}, {10, 8, -10}, {10, 8, -8}, {10, 22, -8});
+    tests::add_quad(mesh, {10, 8, -10}, {30, 8, -10}, {30, 8, 0}, {10, 8, -8});
+    tests::add_quad(mesh, {30, 22, -10}, {10, 22, -10}, {10, 22, -8}, {30, 22, 0});
+    tests::add_quad(mesh, {10, 22, -10}, {30, 22, -10}, {30, 8, -10}, {10, 8, -10});
+    return mesh;
+}
+
+/// A flat mill of 6 mm goes round the wedge, `off` from its walls.
+MillProof wedge_gone_round(const decomp::mesh::TriMesh& part, double off) {
+    const double by = 3 + off;
+    ByHand hand(tests::plate_stock());
+    hand.take(1).rapid(10 - by, 8 - by, 5).cut(10 - by, 8 - by, -10, 200);
+    hand.cut(30 + by, 8 - by, -10).cut(30 + by, 22 + by, -10).cut(10 - by, 22 + by, -10);
+    hand.cut(10 - by, 8 - by, -10).rapid(10 - by, 8 - by, 5);
+    MillJob job = tests::pocket_job(part);
+    job.finished = false;
+    return prove(tests::text_of(hand.done()), job, {}).value();
+}
+
+TEST(Prove, WallsMayBeCutUpToEdgesSharperThanARightAngle) {
+    const auto part = wedge();
+    const MillProof proof = wedge_gone_round(part, 0);
+    EXPECT_EQ(fault_of(proof, "gouge").kind, "") << words_of(proof);
+    EXPECT_EQ(proof.figures.max_gouge_mm, 0);
+}
+
+TEST(Prove, AWallThatIsCutIsAGougeAsDeepAsTheCut) {
+    const auto part = wedge();
+    for (const double deep : {0.03, 0.1, 0.5}) {
+        const MillProof proof = wedge_gone_round(part, -deep);
+        EXPECT_GT(fault_of(proof, "gouge").line, 0) << deep;
+        EXPECT_NEAR(proof.figures.max_gouge_mm, deep, 2e-3) << words_of(proof);
+    }
+}
+
 TEST(Prove, APieceThatIsCutFreeIsLooseUnlessATabHoldsIt) {
     const auto part = tests::pocket_part();
     const auto contour = [&](bool tab) {
