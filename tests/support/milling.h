@@ -57,4 +57,10 @@ inline decomp::mesh::TriMesh domed_plate() {
                     72);
 }
 
+/// A round plate with a pocket whose wall leans outwards by a sixth of its height: the floor is
+/// 16 mm across and 6 mm below the rim.
+inline decomp::mesh::TriMesh dished_plate() {
+    return revolved(4, {{8, 4}, {9, 10}, {14, 10}, {14, 0}}, 0, 72);
+}
+
 }  // namespace tests

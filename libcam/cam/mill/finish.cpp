@@ -3,6 +3,7 @@
 
 #include "cam/mill/maps.h"
 #include "cam/mill/order.h"
+#include "cam/mill/tip.h"
 #include "cam/mill/trace.h"
 #include "decomp/base/parallel.h"
 
@@ -18,88 +19,20 @@ namespace cam::mill {
 namespace {
 
 using check::HeightMap;
-using cutter::DropCutter;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDip = 0.03;        // mm that a chord may stand over a hollow
-constexpr double kShortest = 0.02;   // mm in plan: a steeper step is a wall
-constexpr double kCoarsest = 0.1;    // mm in plan: a hollow is looked at down to here
 constexpr double kAboveCut = 1.0;    // mm over what is there before a tool slows down
 constexpr double kOnFloor = 1e-6;    // mm: nothing is finished there
+constexpr double kRowSlope = 0.4;    // rises more from row to row: a further row between them
+constexpr double kRowShare = 0.928;  // of the stepover: up to that slope no higher scallops
+constexpr double kBeside = 0.01;     // mm: the slope at a place is that to a place beside it
 constexpr double kLevelShare = 0.8;  // of the stepover: levels on slopes not quite upright
-constexpr double kPlaceMm = 0.002;   // to which a level line is moved onto the surface
 constexpr double kLead = 0.25;       // diameters: a level line begins and ends so far outside
 constexpr double kRestMm = 0.05;     // that a second finishing tool finds worth cutting
 constexpr double kThinMm = 0.002;
 constexpr double kHeldUpMm = 0.02;
 constexpr double kJumpLines = 3;  // stepovers across which a line goes on to the next
-
-/// A tool over a surface: exact drops, never below the floor, never where its body would touch.
-class Tip {
-  public:
-    Tip(const cutter::Surface& surface, const tool::Tool& tool, HeightMap body, double floor)
-        : drop_(surface, tool::outline_of(tool)), body_(std::move(body)), floor_(floor) {}
-
-    [[nodiscard]] double lowest(const Vector2d& at, double floor = cutter::kFree) const {
-        return drop_.lowest_tip(at, std::max({floor, floor_, body(at)}));
-    }
-
-    [[nodiscard]] double body(const Vector2d& at) const {
-        return std::max<double>(highest_near(body_, at), floor_);
-    }
-
-    [[nodiscard]] bool clears(const Vector2d& at, double z) const {
-        return z >= body(at) - kPlaceMm && drop_.clears(at, z);
-    }
-
-    /// Appends the way from a to b (not a itself) over the surface.
-    void follow(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& out) const {
-        refine(a, b, out);
-        out.push_back(b);
-    }
-
-  private:
-    /// On a steep chord the surface may cross twice and be right at the middle.
-    [[nodiscard]] bool crosses_steep(const Vector3d& a, const Vector3d& b) const {
-        if (std::abs(b.z() - a.z()) < (b - a).head<2>().norm()) {
-            return false;
-        }
-        for (const double share : {0.25, 0.75}) {
-            const Vector3d p = a + share * (b - a);
-            if (!drop_.clears(p.head<2>(), p.z() + kFinishToleranceMm)) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    void refine(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& out) const {
-        const Vector2d middle = (a + b).head<2>() / 2;
-        const double length = (b - a).head<2>().norm();
-        const double chord = (a.z() + b.z()) / 2;
-        const double z = lowest(middle, chord - kDip);
-        const bool gouges = z > chord + kFinishToleranceMm || crosses_steep(a, b);
-        const bool dips = z <= chord - kDip && length > kCoarsest;
-        if (!gouges && !dips) {
-            return;
-        }
-        if (length < kShortest) {
-            // A wall: up or down on its free side.
-            const Vector3d& low = a.z() < b.z() ? a : b;
-            out.emplace_back(low.x(), low.y(), std::max({z, a.z(), b.z()}));
-            return;
-        }
-        const Vector3d split(middle.x(), middle.y(), z > chord - kDip ? z : lowest(middle));
-        refine(a, split, out);
-        out.push_back(split);
-        refine(split, b, out);
-    }
-
-    DropCutter drop_;
-    HeightMap body_;
-    double floor_;
-};
 
 /// Places and heights of the lattice of finishing.
 struct Grid {
@@ -175,8 +108,8 @@ class Finishing {
                 if (needed[i] == 0) {
                     continue;
                 }
-                const double gx = slope(column - 1, row, column + 1, row, needed[i] != 0);
-                const double gy = slope(column, row - 1, column, row + 1, needed[i] != 0);
+                const double gx = slope(column - 1, row, column + 1, row);
+                const double gy = slope(column, row - 1, column, row + 1);
                 steep[i] = std::hypot(gx, gy) > steepest;
                 figures_.nodes += z_[i] > bench_.floor_z + kOnFloor ? 1 : 0;
                 figures_.held_up +=
@@ -189,7 +122,7 @@ class Finishing {
             for (int column = 0; column < lattice.columns; ++column) {
                 const std::size_t i = lattice.index(column, row);
                 const bool on_floor = z_[i] <= bench_.floor_z + kOnFloor;
-                line_[i] = needed[i] != 0 && !on_floor && steep[i] == 0;
+                line_[i] = needed[i] != 0 && !on_floor && gentlest(column, row) <= steepest;
                 level_[i] = near(steep, column, row);
             }
         }
@@ -218,46 +151,25 @@ class Finishing {
 
     void lines() {
         writer_.take(cutter_, cutter_.feeds.finish.spindle_rpm, path::MillOperation::Parallel);
-
-        struct Line {
-            int row = 0;
-            int first = 0;
-            int last = 0;
-        };
-
-        std::vector<Line> lines;
-        std::vector<Stretch> stretches;
-        const Lattice& lattice = grid_.lattice;
-        for (int row = 0; row < lattice.rows; ++row) {
-            for (int column = 0; column < lattice.columns; ++column) {
-                if (line_[lattice.index(column, row)] == 0) {
-                    continue;
-                }
-                int last = column;
-                while (last + 1 < lattice.columns && line_[lattice.index(last + 1, row)] != 0) {
-                    ++last;
-                }
-                // One node into the steep at either end.
-                const int first = column > 0 && usable(column - 1, row) ? column - 1 : column;
-                const int end =
-                    last + 1 < lattice.columns && usable(last + 1, row) ? last + 1 : last;
-                lines.push_back({row, first, end});
-                stretches.push_back({grid_.place(first, row), grid_.place(end, row)});
-                column = last;
+        std::vector<std::vector<Vector3d>> lines;
+        for (int row = 0; row < grid_.lattice.rows; ++row) {
+            add_row(row, lines);
+            if (row + 1 < grid_.lattice.rows) {
+                add_row_between(row, lines);
             }
+        }
+        std::vector<Stretch> stretches;
+        stretches.reserve(lines.size());
+        for (const std::vector<Vector3d>& line : lines) {
+            stretches.push_back({line.front().head<2>(), line.back().head<2>()});
         }
         const Vector2d start = writer_.at() ? Vector2d(writer_.at()->head<2>()) : room_.min();
         for (const Turn& turn : short_order(stretches, start)) {
-            const Line& line = lines[turn.index];
-            std::vector<Vector3d> points;
-            for (int column = line.first; column <= line.last; ++column) {
-                const Vector2d at = grid_.place(column, line.row);
-                points.emplace_back(at.x(), at.y(), z_[lattice.index(column, line.row)]);
-            }
+            std::vector<Vector3d>& line = lines[turn.index];
             if (turn.backwards) {
-                std::reverse(points.begin(), points.end());
+                std::reverse(line.begin(), line.end());
             }
-            cut_line(points);
+            cut_line(line);
         }
         writer_.retract();
     }
@@ -282,6 +194,92 @@ class Finishing {
     }
 
   private:
+    [[nodiscard]] Vector3d node(int column, int row) const {
+        const Vector2d at = grid_.place(column, row);
+        return {at.x(), at.y(), z_[grid_.lattice.index(column, row)]};
+    }
+
+    /// The lines of a row.
+    void add_row(int row, std::vector<std::vector<Vector3d>>& lines) const {
+        const Lattice& lattice = grid_.lattice;
+        for (int column = 0; column < lattice.columns; ++column) {
+            if (line_[lattice.index(column, row)] == 0) {
+                continue;
+            }
+            int last = column;
+            while (last + 1 < lattice.columns && line_[lattice.index(last + 1, row)] != 0) {
+                ++last;
+            }
+            // One node into the steep at either end.
+            const int first = column > 0 && usable(column - 1, row) ? column - 1 : column;
+            const int end = last + 1 < lattice.columns && usable(last + 1, row) ? last + 1 : last;
+            std::vector<Vector3d>& line = lines.emplace_back();
+            for (int c = first; c <= end; ++c) {
+                line.push_back(node(c, row));
+            }
+            column = last;
+        }
+    }
+
+    /// Lines between a row and the next, where the surface rises from one to the other.
+    void add_row_between(int row, std::vector<std::vector<Vector3d>>& lines) const {
+        bool going_on = false;
+        for (int column = 0; column < grid_.lattice.columns; ++column) {
+            const std::optional<Vector3d> between = node_between(column, row);
+            if (between) {
+                if (!going_on) {
+                    lines.emplace_back();
+                }
+                lines.back().push_back(*between);
+            }
+            going_on = between.has_value();
+        }
+    }
+
+    /// Where a further line passes between two nodes of a column: at the foot of a wall right
+    /// beside it, for a round tip that stays off leaves the whole corner; on a slope midway.
+    [[nodiscard]] std::optional<Vector3d> node_between(int column, int row) const {
+        const Vector3d one = node(column, row);
+        const Vector3d other = node(column, row + 1);
+        const Vector3d& low = one.z() < other.z() ? one : other;
+        const Vector3d& high = one.z() < other.z() ? other : one;
+        const int low_row = one.z() < other.z() ? row : row + 1;
+        if (line_[grid_.lattice.index(column, low_row)] == 0 || !usable(column, row) ||
+            !usable(column, row + 1) || high.z() - low.z() <= kRowSlope * grid_.step) {
+            return std::nullopt;
+        }
+        const double steepest = std::tan(task_.steep.radians());
+        const Vector2d up = (high - low).head<2>() / grid_.step;
+        const auto place = [&](double share) -> Vector2d {
+            return low.head<2>() + share * grid_.step * up;
+        };
+        const auto is_steep = [&](double share) {
+            const Vector2d at = place(share);
+            return tip_.lowest(at + kBeside * up) - tip_.lowest(at) > steepest * kBeside;
+        };
+        double share = 0.5;
+        if (high.z() - low.z() > steepest * grid_.step && !is_steep(0)) {
+            double wall = 1;
+            share = 0;
+            while ((wall - share) * grid_.step > kPlaceMm) {
+                const double middle = (wall + share) / 2;
+                (is_steep(middle) ? wall : share) = middle;
+            }
+        }
+        const Vector2d at = place(share);
+        return Vector3d(at.x(), at.y(), tip_.lowest(at));
+    }
+
+    /// The slope on the gentler side of a node along the rows and across them: at the foot of a
+    /// wall and at its brink that is the ground's.
+    [[nodiscard]] double gentlest(int column, int row) const {
+        const double x = std::min(std::abs(slope(column - 1, row, column, row)),
+                                  std::abs(slope(column, row, column + 1, row)));
+        const double y = std::min(std::abs(slope(column, row - 1, column, row)),
+                                  std::abs(slope(column, row, column, row + 1)));
+        return std::hypot(x, y);
+    }
+
     /// The highest that the tip has been around a place; the safe height where it has not been.
     [[nodiscard]] double height_at(const Vector2d& at) const {
         const Vector2d from = at - grid_.origin;
@@ -302,7 +300,7 @@ class Finishing {
         return inside(grid_.place(column, row)) && z_[i] > bench_.floor_z + kOnFloor;
     }
 
-    [[nodiscard]] double slope(int c0, int r0, int c1, int r1, bool /*needed*/) const {
+    [[nodiscard]] double slope(int c0, int r0, int c1, int r1) const {
         const Lattice& lattice = grid_.lattice;
         const auto fit = [](int value, int count) { return std::clamp(value, 0, count - 1); };
         c0 = fit(c0, lattice.columns);
@@ -557,7 +555,7 @@ decomp::Result<Finished> finish(const Work& work, const cutter::Surface& surface
         work, cutter,
         Tip(surface, cutter.tool, body_tips(stock, cutter.tool, work.task), bench.floor_z));
     const double step = stepover_mm(cutter.tool, work.task.scallop_mm);
-    if (!finishing.sample(step, run)) {
+    if (!finishing.sample(kRowShare * step, run)) {
         return decomp::cancelled();
     }
     finishing.sort_by_slope(rest_only);

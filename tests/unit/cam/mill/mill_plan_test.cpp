@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <variant>
 #include <vector>
 
@@ -176,6 +177,45 @@ TEST(MillPlan, FinishingLeavesNoMoreThanScallopsOnTheDome) {
         }
     }
     EXPECT_LT(*std::max_element(left.begin(), left.end()), 0.12);
+}
+
+TEST(MillPlan, FinishingReachesTheFootOfAWallWhereverTheLinesRun) {
+    const Part dish = tests::whole_part(tests::dished_plate());
+    for (const double direction : {0.0, 25.0}) {
+        MillTask task = tests::soft_task(3);
+        task.setups = Setups::One;
+        task.scallop_mm = 0.1;
+        task.lines = decomp::Angle::degrees(direction);
+        decomp::Run run;
+        const auto plan = plan_milling(dish, task, run);
+        ASSERT_TRUE(plan) << plan.error().message;
+        const MillProgram& program = plan->programs[0];
+        // Where a ball of 3 mm in the corner of floor and wall touches the floor, all around.
+        const double apothem = 8 * std::cos(std::numbers::pi / 72);
+        const double rise = 1 / std::hypot(6, 1);
+        const double r = apothem - 1.5 * (1 - rise) / (6 * rise);
+        std::vector<Vector3d> points;
+        for (int i = 0; i < 60; ++i) {
+            const double turn = 2 * std::numbers::pi * i / 60;
+            points.push_back(program.from_model *
+                             Vector3d(r * std::cos(turn), r * std::sin(turn), 4));
+        }
+        std::vector<double> left(points.size(), 100);
+        for (const Piece& piece : pieces_of(program)) {
+            const int steps = 1 + static_cast<int>((piece.to - piece.from).norm() / 0.05);
+            for (int s = 0; piece.tool == 2 && !piece.rapid && s <= steps; ++s) {
+                const Vector3d at = piece.from + (piece.to - piece.from) * s / steps;
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const double away = std::min(1.5, (points[i] - at).head<2>().norm());
+                    const double z =
+                        away < 1.5 ? at.z() + 1.5 - std::sqrt(2.25 - away * away) : 100;
+                    left[i] = std::min(left[i], z - points[i].z());
+                }
+            }
+        }
+        EXPECT_LT(*std::max_element(left.begin(), left.end()), 0.1 + 0.01) << direction;
+        EXPECT_GT(*std::min_element(left.begin(), left.end()), -0.005) << direction;
+    }
 }
 
 TEST(MillPlan, TheSamePlanComesOutAtAnyNumberOfThreads) {
