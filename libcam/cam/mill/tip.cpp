@@ -34,11 +34,8 @@ void Tip::follow(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& ou
     out.push_back(b);
 }
 
-/// On a steep chord the surface may cross twice and be right at the middle.
-bool Tip::crosses_steep(const Vector3d& a, const Vector3d& b) const {
-    if (std::abs(b.z() - a.z()) < (b - a).head<2>().norm()) {
-        return false;
-    }
+/// A chord may be right in its middle and cut beside it.
+bool Tip::cuts_beside_middle(const Vector3d& a, const Vector3d& b) const {
     for (const double share : {0.25, 0.75}) {
         const Vector3d p = a + share * (b - a);
         if (!drop_.clears(p.head<2>(), p.z() + kFinishToleranceMm)) {
@@ -53,7 +50,7 @@ void Tip::refine(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& ou
     const double length = (b - a).head<2>().norm();
     const double chord = (a.z() + b.z()) / 2;
     const double z = lowest(middle, chord - kDip);
-    const bool gouges = z > chord + kFinishToleranceMm || crosses_steep(a, b);
+    const bool gouges = z > chord + kFinishToleranceMm || cuts_beside_middle(a, b);
     const bool dips = z <= chord - kDip && length > kCoarsest;
     if (!gouges && !dips) {
         return;

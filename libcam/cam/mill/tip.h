@@ -35,7 +35,7 @@ class Tip {
                 std::vector<Eigen::Vector3d>& out) const;
 
   private:
-    [[nodiscard]] bool crosses_steep(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+    [[nodiscard]] bool cuts_beside_middle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
     void refine(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                 std::vector<Eigen::Vector3d>& out) const;
 
