@@ -38,7 +38,10 @@ Json share_json(const cam::check::Share& share) {
             {"facets", share.facets}};
 }
 
-Json vector_json(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Json vector_json(const Eigen::Vector3d& vector) {
+    // + 0.0 makes a -0 a 0: nobody looks for a sign there.
+    return {vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0};
+}
 
 std::string percent_text(double percent) { return decomp::fixed(percent, 2); }
 
