@@ -118,8 +118,7 @@ std::string text_of(const decomp::mesh::TriMesh& mesh, const decomp::mesh::Topol
            counted(intersections, "pairs of triangles that cross");
 }
 
-decomp::Result<Answer> inspect(Command command, const decomp::Run& outer) {
-    decomp::Run run = outer;
+decomp::Result<Answer> inspect(Command command, const decomp::Run& run) {
     command.read.angle = command.angle_deg * std::numbers::pi / 180;
     const auto mesh = decomp::io::read_mesh(command.model, command.read, run);
     if (!mesh) {

@@ -107,7 +107,7 @@ std::string picture(const MillPlan& plan, const MillProgram& program, bool first
             line += (line.empty() ? "M" : "L") + decimal(cut->to.x(), 1) + " " +
                     decimal(cut->to.y(), 1);
         } else if (!line.empty() && std::holds_alternative<cam::path::MillRapid>(move.what)) {
-            svg += "<path d=\"" + line + "\" style=\"fill:none;stroke:#47a;stroke-width:.08\"/>";
+            svg += "<path d=\"" + line + R"(" style="fill:none;stroke:#47a;stroke-width:.08"/>)";
             line.clear();
         }
     }
