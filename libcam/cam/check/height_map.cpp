@@ -56,8 +56,7 @@ Kernel kernel_of(double radius_mm, double cell_mm, const std::function<double(do
 class PaddedRows {
   public:
     PaddedRows(const HeightMap& map, int pad)
-        : pad_(pad),
-          blocks_((map.columns + kBlock - 1) / kBlock + 2 * pad / kBlock + 2),
+        : blocks_((map.columns + kBlock - 1) / kBlock + 2 * pad / kBlock + 2),
           values_(static_cast<std::size_t>(blocks_) * kBlock * static_cast<std::size_t>(map.rows),
                   kNothing),
           highest_(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(map.rows),
@@ -88,7 +87,6 @@ class PaddedRows {
                static_cast<std::size_t>(block);
     }
 
-    int pad_;
     int blocks_;
     std::vector<float> values_;
     std::vector<float> highest_;

@@ -22,8 +22,6 @@ constexpr int kNegative = 4;
 constexpr int kUnsupported = 20;
 constexpr int kModalGroup = 21;
 constexpr int kNoFeed = 22;
-constexpr int kNotWhole = 23;
-constexpr int kTwoAxisCommands = 24;
 constexpr int kRepeated = 25;
 constexpr int kNoAxisWords = 26;
 constexpr int kMissingValue = 28;
@@ -32,7 +30,6 @@ constexpr int kUnusedAxisWords = 31;
 constexpr int kBadTarget = 33;
 constexpr int kBadRadius = 34;
 constexpr int kNoOffsets = 35;
-constexpr int kUnused = 36;
 
 }  // namespace
 
