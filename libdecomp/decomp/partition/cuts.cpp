@@ -20,6 +20,7 @@ constexpr double kStrayFactor = 0.7;  // on the gain of a plane with no sheet be
 constexpr double kWindow = 0.3;       // of the best gain: candidates that thickness ranks
 constexpr double kMostOfBox = 0.5;    // a region with more of a box than this should be cut for it
 constexpr int kMostCuts = 400;
+constexpr double kAsMuch = 1 - 1e-9;  // of a gain: sums that differ by rounding alone are equal
 /// Of the diagonal: where a plane would take off a tongue, one beside it may take off a lip alone.
 constexpr std::array<double, 10> kShifts{0.005,  -0.005, 0.01,  -0.01, 0.015,
                                          -0.015, 0.02,   -0.02, 0.03,  -0.03};
@@ -376,7 +377,8 @@ class Cutter {
                 if (look.useless) {
                     continue;
                 }
-                if (look.limited && (!look.whole || look.limited->rank >= look.whole->rank)) {
+                if (look.limited &&
+                    (!look.whole || look.limited->rank >= kAsMuch * look.whole->rank)) {
                     open.push_back(*look.limited);
                 } else if (look.whole) {
                     open.push_back(*look.whole);
@@ -390,10 +392,15 @@ class Cutter {
             std::max_element(open.begin(), open.end(), [](const Choice& l, const Choice& r) {
                 return l.rank < r.rank;
             })->rank;
+        // The thickest; of equally thick ones one that is limited, for it cuts less.
+        const auto better = [](const Choice& choice, const Choice& than) {
+            return kAsMuch * choice.thickness_mm > than.thickness_mm ||
+                   (choice.limited && !than.limited &&
+                    choice.thickness_mm >= kAsMuch * than.thickness_mm);
+        };
         const Choice* chosen = nullptr;
         for (const Choice& choice : open) {
-            if (choice.rank >= kWindow * most &&
-                (chosen == nullptr || choice.thickness_mm > chosen->thickness_mm)) {
+            if (choice.rank >= kWindow * most && (chosen == nullptr || better(choice, *chosen))) {
                 chosen = &choice;
             }
         }
