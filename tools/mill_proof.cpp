@@ -6,7 +6,6 @@
 #include "decomp/base/number.h"
 
 #include <algorithm>
-#include <variant>
 
 namespace tools {
 
@@ -14,23 +13,6 @@ namespace {
 
 constexpr std::size_t kFaultsTold = 8;
 constexpr double kColourRangeMm = 0.5;
-
-/// Whether a tool finishes in a program, not only clears: a flat end that does not follow the
-/// walls leaves their feet to the round tip, which leaves its own round there.
-bool finishes(const cam::path::MillProgram& program, int number) {
-    int taken = 0;
-    for (const cam::path::MillMove& move : program.moves) {
-        if (const auto* take = std::get_if<cam::path::MillTakeTool>(&move.what)) {
-            taken = take->number;
-        }
-        const bool surface = move.operation == cam::path::MillOperation::Waterline ||
-                             move.operation == cam::path::MillOperation::Parallel;
-        if (surface && taken == number && std::holds_alternative<cam::path::MillCut>(move.what)) {
-            return true;
-        }
-    }
-    return false;
-}
 
 Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& map) {
     Eigen::AlignedBox3d out;
@@ -63,7 +45,7 @@ decomp::Result<ProvedMilling> prove_milling(const std::string& program,
         job.keeps.push_back(moved(keep.box, turn));
     }
     for (const auto& tool : plan.tools) {
-        job.tools.push_back({tool, 0, finishes(planned, tool.number)});
+        job.tools.push_back({tool, 0});
     }
     job.machine = setup.machine;
     job.dialect = setup.dialect;

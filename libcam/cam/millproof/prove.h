@@ -20,7 +20,6 @@ namespace cam::millproof {
 struct ProofTool {
     tool::Tool tool;
     double max_mm_per_min = 0;  ///< 0: the machine's own limit alone
-    bool finishes = true;       ///< false: it clears alone, what it might reach is not asked for
 };
 
 /// One set-up, in the frame of its program (mm).

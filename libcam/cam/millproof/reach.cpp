@@ -166,12 +166,7 @@ Reach::Reach(const MillJob& job, double cell_mm) {
     cells_.rows = static_cast<int>(std::ceil((far.y() - cells_.origin.y()) / cell_mm)) + 1;
     const std::vector<float> top = top_of(job, cells_);
     closed_.assign(top.size(), kUncut);
-    const bool any = std::any_of(job.tools.begin(), job.tools.end(),
-                                 [](const ProofTool& tool) { return tool.finishes; });
     for (const ProofTool& tool : job.tools) {
-        if (any && !tool.finishes) {
-            continue;
-        }
         // A wall stands up to half a cell before the first cell that knows of it: a tool that just
         // fits on the map does not fit.
         std::vector<float> lowered =

@@ -83,17 +83,6 @@ TEST_F(Pocket, AWrongToolLeavesMaterialAndIsNamed) {
     EXPECT_EQ(fault_of(judged(nobodys), "tool").line, line_with(nobodys, "M6 T7"));
 }
 
-TEST_F(Pocket, WhatOnlyAClearingToolReachesIsNotAskedForButRidgesOfTheFinishingToolAre) {
-    const std::string ball = replaced(replaced(text_, "M6 T1", "M6 T2"), "H1", "H2");
-    auto job = tests::pocket_job(part_);
-    job.tools.push_back({tests::ball_mill(2, 6), 800});
-    const MillProof by_both = prove(ball, job, {}).value();
-    job.tools[0].finishes = false;
-    const MillProof by_the_ball = prove(ball, job, {}).value();
-    EXPECT_GT(by_the_ball.figures.unreachable, by_both.figures.unreachable + 0.01);
-    EXPECT_EQ(fault_of(by_the_ball, "excess").kind, "excess") << words_of(by_the_ball);
-}
-
 TEST_F(Pocket, InchesAreNamed) {
     const std::string wrong = replaced(text_, "G21", "G20");
     EXPECT_EQ(fault_of(judged(wrong), "units").line, line_with(wrong, "G20"));
