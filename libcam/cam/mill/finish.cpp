@@ -31,7 +31,6 @@ constexpr double kLevelShare = 0.8;  // of the stepover: levels on slopes not qu
 constexpr double kLead = 0.25;       // diameters: a level line begins and ends so far outside
 constexpr double kRestMm = 0.05;     // that a second finishing tool finds worth cutting
 constexpr double kThinMm = 0.002;
-constexpr double kHeldUpMm = 0.02;
 constexpr double kJumpLines = 3;  // stepovers across which a line goes on to the next
 
 /// Places and heights of the lattice of finishing.

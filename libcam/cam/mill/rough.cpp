@@ -65,8 +65,8 @@ Corner nearest_corner(const std::vector<std::vector<Vector2d>>& loops,
 
 class Roughing {
   public:
-    Roughing(Writer& writer, const Bench& bench, const Cutter& cutter, HeightMap tips)
-        : writer_(writer), bench_(bench), cutter_(cutter), tips_(std::move(tips)) {}
+    Roughing(Writer& writer, const Cutter& cutter, HeightMap tips)
+        : writer_(writer), cutter_(cutter), tips_(std::move(tips)) {}
 
     void cut_level(const Level& level) {
         const double over = ring_step();
@@ -190,7 +190,6 @@ class Roughing {
     }
 
     Writer& writer_;
-    const Bench& bench_;
     const Cutter& cutter_;
     HeightMap tips_;
 };
@@ -272,7 +271,7 @@ decomp::Status rough(const Work& work, const Cutter& cutter, bool rest_only, dou
     std::fill(reached.z_mm.begin(), reached.z_mm.end(), untouched_z);
     writer.take(cutter, cutter.feeds.rough.spindle_rpm,
                 rest_only ? path::MillOperation::RestRough : path::MillOperation::Rough);
-    Roughing roughing(writer, bench, cutter, tips);
+    Roughing roughing(writer, cutter, tips);
     Paths opened;
     for (int k = 1; k <= levels; ++k) {
         if (run.cancelled()) {
