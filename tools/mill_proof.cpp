@@ -21,17 +21,11 @@ Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Eigen::Isometry3
     return out;
 }
 
-}  // namespace
-
-decomp::Result<ProvedMilling> prove_milling(const std::string& program,
-                                            const cam::path::MillPlan& plan, std::size_t set_up,
-                                            const decomp::mesh::TriMesh& part,
-                                            const cam::profile::MillSetup& setup) {
+// What the proof is told of a set-up; `here` is the part in that set-up's frame and outlives the
+// job.
+cam::millproof::MillJob mill_job(const decomp::mesh::TriMesh& here, const cam::path::MillPlan& plan,
+                                 std::size_t set_up, const cam::profile::MillSetup& setup) {
     const cam::path::MillProgram& planned = plan.programs[set_up];
-    decomp::mesh::TriMesh here = part;
-    for (Eigen::Vector3d& p : here.points) {
-        p = planned.from_model * p;
-    }
     cam::millproof::MillJob job;
     job.part = &here;
     job.stock = planned.stock;
@@ -49,6 +43,38 @@ decomp::Result<ProvedMilling> prove_milling(const std::string& program,
     }
     job.machine = setup.machine;
     job.dialect = setup.dialect;
+    return job;
+}
+
+std::string proof_text(const cam::millproof::MillProof& proof) {
+    const auto& figures = proof.figures;
+    std::string text = std::string("  proof: ") + (proof.passed() ? "passed" : "FAILED") +
+                       "; gouge " + decomp::decimal(figures.max_gouge_mm, 3) + ", rest " +
+                       decomp::decimal(figures.excess_999_mm, 3) + " mm (99.9 %), out of reach " +
+                       decomp::decimal(100 * figures.unreachable, 1) + " %, rapids into stock " +
+                       std::to_string(figures.rapid_hits) + "\n";
+    for (std::size_t i = 0; i < proof.faults.size() && i < kFaultsTold; ++i) {
+        const auto& fault = proof.faults[i];
+        text +=
+            "    " + fault.kind + ", line " + std::to_string(fault.line) + ": " + fault.what + "\n";
+    }
+    if (proof.faults.size() > kFaultsTold) {
+        text += "    and " + std::to_string(proof.faults.size() - kFaultsTold) + " more\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+decomp::Result<ProvedMilling> prove_milling(const std::string& program,
+                                            const cam::path::MillPlan& plan, std::size_t set_up,
+                                            const decomp::mesh::TriMesh& part,
+                                            const cam::profile::MillSetup& setup) {
+    decomp::mesh::TriMesh here = part;
+    for (Eigen::Vector3d& p : here.points) {
+        p = plan.programs[set_up].from_model * p;
+    }
+    const auto job = mill_job(here, plan, set_up, setup);
     // Ridges as high as was asked for are no fault: they come on top of what counts as reached.
     cam::millproof::ProofOptions options;
     options.max_excess_mm =
@@ -74,19 +100,7 @@ decomp::Result<ProvedMilling> prove_milling(const std::string& program,
                    {"unreachable_percent", 100 * figures.unreachable},
                    {"rapid_hits", figures.rapid_hits},
                    {"faults", proof->faults.size()}};
-    out.text = std::string("  proof: ") + (out.passed ? "passed" : "FAILED") + "; gouge " +
-               decomp::decimal(figures.max_gouge_mm, 3) + ", rest " +
-               decomp::decimal(figures.excess_999_mm, 3) + " mm (99.9 %), out of reach " +
-               decomp::decimal(100 * figures.unreachable, 1) + " %, rapids into stock " +
-               std::to_string(figures.rapid_hits) + "\n";
-    for (std::size_t i = 0; i < proof->faults.size() && i < kFaultsTold; ++i) {
-        const auto& fault = proof->faults[i];
-        out.text +=
-            "    " + fault.kind + ", line " + std::to_string(fault.line) + ": " + fault.what + "\n";
-    }
-    if (proof->faults.size() > kFaultsTold) {
-        out.text += "    and " + std::to_string(proof->faults.size() - kFaultsTold) + " more\n";
-    }
+    out.text = proof_text(*proof);
     return out;
 }
 
