@@ -148,7 +148,8 @@ void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& 
 }
 
 void add_step_options(CLI::App& app, cam::job::StepWish& wish) {
-    app.add_flag("--step", wish.wanted, "the parts as STEP solids, in step/")->group("STEP");
+    auto* step = app.add_flag("--step", wish.wanted, "the parts as STEP solids, in step/");
+    step->group("STEP");
     add_length(app, "--step-tol", wish.tolerance_mm,
                "how far a solid may leave its part; default: 0.05 mm")
         ->group("STEP");
@@ -158,6 +159,18 @@ void add_step_options(CLI::App& app, cam::job::StepWish& wish) {
         ->group("STEP");
     app.add_flag("--step-many", wish.many_faces,
                  "write a solid even where it needs more than 6000 faces")
+        ->group("STEP");
+    add_length(app, "--step-stock", wish.stock_mm,
+               "the stock as a body beside each part: so much larger on its sides and on top")
+        ->needs(step)
+        ->group("STEP");
+    app.add_option("--step-fixture", wish.fixtures,
+                   "a model of vise, clamps or table as a further body; z = 0 is under the part")
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->transform(
+            [](const std::string& file) { return std::filesystem::absolute(file).string(); })
+        ->needs(step)
         ->group("STEP");
 }
 

@@ -79,6 +79,54 @@ TEST(Export, MakeWritesThemOnItsWay) {
     EXPECT_EQ(report["step"][0]["faces"], 6);
 }
 
+TEST(Export, StockAndFixtureStandBesideThePartWhereAsked) {
+    const TempDir dir;
+    const std::string out = drilled_job(dir);
+    const std::string vise = write_stl(dir, "vise.stl", block(200, 30, 10));
+    const auto exported =
+        hew({"export", out, "--step", "--step-stock", "3mm", "--step-fixture", vise, "--json"});
+    ASSERT_EQ(exported.exit_code, 0) << exported.err;
+    const Json json = object_of(exported);
+    const Json bodies = object_of(hew({"inspect", json["parts"][0]["file"], "--json"}))["bodies"];
+    ASSERT_EQ(bodies.size(), 3U);
+    const Json& part = bodies[0];
+    const Json& stock = bodies[1];
+    const Json& fixture = bodies[2];
+    EXPECT_EQ(part["name"], "P01");
+    EXPECT_EQ(stock["name"], "stock");
+    EXPECT_EQ(fixture["name"], "fixture");
+    double block_mm3 = 1;
+    for (int k = 0; k < 3; ++k) {
+        const double below = k == 2 ? 0 : 3;
+        const double low = stock["min_mm"][k].get<double>();
+        const double high = stock["max_mm"][k].get<double>();
+        EXPECT_NEAR(low, part["min_mm"][k].get<double>() - below, 1e-4);
+        EXPECT_NEAR(high, part["max_mm"][k].get<double>() + 3, 1e-4);
+        block_mm3 *= high - low;
+    }
+    EXPECT_NEAR(stock["volume_mm3"].get<double>(), block_mm3, 1e-6 * block_mm3);
+    EXPECT_NEAR(fixture["volume_mm3"].get<double>(), 200 * 30 * 10, 1e-3);
+    EXPECT_TRUE(fixture["valid"]);
+    // The assembly has the parts alone, and the verb that made the job leaves all that as it is.
+    const Json whole = object_of(hew({"inspect", json["assembly"], "--json"}));
+    EXPECT_EQ(whole["bodies"].size(), json["parts"].size());
+    const auto before = contents(out);
+    ASSERT_EQ(
+        hew({"decompose", (dir / "plate.stl").string(), "--machine", "prusa-mk3s", "-o", out, "-q"})
+            .exit_code,
+        0);
+    EXPECT_EQ(contents(out).at("step/P01.step"), before.at("step/P01.step"));
+}
+
+TEST(Export, AFixtureThatIsNotThereIsAnErrorAndAStockWithoutStepToo) {
+    const TempDir dir;
+    const std::string out = drilled_job(dir);
+    const auto missing =
+        hew({"export", out, "--step", "--step-fixture", (dir / "none.stl").string(), "--json"});
+    EXPECT_EQ(missing.exit_code, 3) << missing.err;
+    EXPECT_EQ(hew({"export", out, "--step-stock", "3mm"}).exit_code, 2);
+}
+
 TEST(Export, AStepFileIsAModelLikeAnyOther) {
     const TempDir dir;
     const std::string out = drilled_job(dir);

@@ -55,7 +55,9 @@ Json options_json(const JobOptions& options) {
             {"tolerance_mm",
              options.step.tolerance_mm ? Json(*options.step.tolerance_mm) : Json(nullptr)},
             {"schema", options.step.schema},
-            {"many_faces", options.step.many_faces}};
+            {"many_faces", options.step.many_faces},
+            {"stock_mm", options.step.stock_mm ? Json(*options.step.stock_mm) : Json(nullptr)},
+            {"fixtures", options.step.fixtures}};
     }
     return json;
 }
@@ -95,6 +97,11 @@ JobOptions read_options(const Json& job) {
         }
         options.step.schema = step.at("schema");
         options.step.many_faces = step.at("many_faces");
+        // Jobs made before these were there lack them.
+        if (step.contains("stock_mm") && !step.at("stock_mm").is_null()) {
+            options.step.stock_mm = step.at("stock_mm").get<double>();
+        }
+        options.step.fixtures = step.value("fixtures", options.step.fixtures);
     }
     return options;
 }

@@ -26,6 +26,8 @@ struct StepWish {
     std::optional<double> tolerance_mm;  ///< empty: kPrintedStepMm
     std::string schema = "ap214";        ///< ap203, ap214, ap242
     bool many_faces = false;             ///< more faces than CAD programs bear are no error
+    std::optional<double> stock_mm;     ///< a block around each part, this much larger; empty: none
+    std::vector<std::string> fixtures;  ///< models that stand beside each part: absolute paths
 
     bool operator==(const StepWish&) const = default;
 };

@@ -2,7 +2,10 @@
 #include "cam/job/step_files.h"
 
 #include "cam/job/maker_detail.h"
+#include "cam/job/step_surroundings.h"
 #include "cam/render/render.h"
+#include "decomp/base/file.h"
+#include "decomp/base/hash.h"
 #include "decomp/base/number.h"
 #include "decomp/brep/write_step.h"
 #include "decomp/mesh/measure.h"
@@ -17,6 +20,7 @@ namespace cam::job {
 using decomp::fail;
 using decomp::Result;
 using decomp::Run;
+using decomp::brep::StepBody;
 using decomp::solid::Detail;
 
 namespace {
@@ -54,6 +58,26 @@ struct StepStyle {
     bool many_faces;
     decomp::brep::StepSchema schema;
 };
+
+/// One part's file with what stands around the part in it. The part comes first.
+Result<std::string> with_surroundings(const PartFacts& facts, StepBody part, const StepWish& wish,
+                                      const std::vector<StepBody>& fixtures, const StepStyle& style,
+                                      const Run& run) {
+    std::vector<StepBody> bodies{std::move(part)};
+    if (wish.stock_mm) {
+        auto stock = stock_body(facts, *wish.stock_mm, run);
+        if (!stock) {
+            return fail(stock.error());
+        }
+        bodies.push_back(std::move(*stock));
+    }
+    bodies.insert(bodies.end(), fixtures.begin(), fixtures.end());
+    auto file = decomp::brep::write_step(bodies, facts.id, style.schema, run);
+    if (!file) {
+        return fail(file.error());
+    }
+    return std::move(file->text);
+}
 
 /// The least simple solid that is sound.
 Result<WrittenPart> write_part(const decomp::part::Part& part, const Eigen::Isometry3d& placed,
@@ -110,6 +134,13 @@ StageKey step_key(const JobFile& job, const StageRunner& stages) {
         .add("schema", wish.schema)
         .add("many", wish.many_faces ? "1" : "0")
         .add("title", job.input.name);
+    if (wish.stock_mm) {
+        key.add("stock", *wish.stock_mm);
+    }
+    for (const std::string& file : wish.fixtures) {
+        const auto bytes = decomp::read_file(file);
+        key.add("fixture", bytes ? decomp::sha256_hex(*bytes) : "");
+    }
     for (const PartFacts& part : job.parts) {
         key.add(part.id, stages.hash_of("parts/" + part.id + ".ply"))
             .add("pose", part.part_from_model.map().matrix());
@@ -125,6 +156,10 @@ Result<std::vector<FileBytes>> step_files(const std::filesystem::path& directory
         return fail(schema.error());
     }
     const StepStyle style{wish.tolerance_mm.value_or(kPrintedStepMm), wish.many_faces, *schema};
+    const auto fixtures = fixture_bodies(wish, style.tolerance_mm, run);
+    if (!fixtures) {
+        return fail(fixtures.error());
+    }
     job.step_parts.clear();
     std::vector<FileBytes> files;
     std::vector<decomp::brep::StepBody> bodies;
@@ -139,7 +174,17 @@ Result<std::vector<FileBytes>> step_files(const std::filesystem::path& directory
             return fail(written.error());
         }
         job.step_parts.push_back(facts_of(facts.id, *written));
-        files.push_back({"step/" + facts.id + ".step", std::move(written->file.text)});
+        std::string text = std::move(written->file.text);
+        if (wish.stock_mm || !fixtures->empty()) {
+            auto around = with_surroundings(facts, {facts.id, written->made.solid, colour_of(i)},
+                                            wish, *fixtures, style, run);
+            if (!around) {
+                return fail(around.error());
+            }
+            text = std::move(*around);
+            job.step_parts.back().bytes = text.size();
+        }
+        files.push_back({"step/" + facts.id + ".step", std::move(text)});
         bodies.push_back({facts.id, std::move(written->made.solid), colour_of(i),
                           facts.part_from_model.inverse().map(), false});
         run.progress("step",

@@ -20,8 +20,10 @@ inline constexpr double kPrintedStepMm = 0.05;
 /// step/P01.step …: every part as a solid in its part bed frame, where z = 0 is the bed and the
 /// program's zero; step/assembly.step: all of them in the model frame, named and coloured as in the
 /// pictures. A part whose solid does not pass the kernel's check is made again with flat faces
-/// alone, then with its triangles. Fills in JobFile::step_parts.
-/// @error job.step_unsound, those of solid::make_solid() and brep::write_step()
+/// alone, then with its triangles. Stock and fixtures, where wished, are further bodies of each
+/// part's file, not of the assembly. Fills in JobFile::step_parts.
+/// @error job.step_unsound, those of read_solid(), those of solid::make_solid() and
+/// brep::write_step()
 [[nodiscard]] decomp::Result<std::vector<FileBytes>> step_files(
     const std::filesystem::path& directory, JobFile& job, decomp::Run& run);
 
