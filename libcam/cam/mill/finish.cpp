@@ -127,6 +127,26 @@ class Finishing {
         }
     }
 
+    /// What a round tip left at the feet of walls and this flat one can take: lines there.
+    void sort_feet() {
+        const Lattice& lattice = grid_.lattice;
+        const double steepest = std::tan(task_.steep.radians());
+        line_.assign(z_.size(), 0);
+        level_.assign(z_.size(), 0);
+        for (int row = 0; row < lattice.rows; ++row) {
+            for (int column = 0; column < lattice.columns; ++column) {
+                const std::size_t i = lattice.index(column, row);
+                const Vector2d at = grid_.place(column, row);
+                const double ground = gentlest(column, row);
+                if (usable(column, row) && ground <= steepest) {
+                    // The map of the stock is as wrong as the ground rises across its cells.
+                    const double worth = kRestMm + ground * std::numbers::sqrt2 * air_.cell_mm;
+                    line_[i] = highest_near(air_, at) > z_[i] + worth;
+                }
+            }
+        }
+    }
+
     void levels(double from_z, double to_z, double step) {
         const Lattice& lattice = grid_.lattice;
         writer_.take(cutter_, cutter_.feeds.finish.spindle_rpm, path::MillOperation::Waterline);
@@ -252,9 +272,12 @@ class Finishing {
         const auto place = [&](double share) -> Vector2d {
             return low.head<2>() + share * grid_.step * up;
         };
+        // Up the wall, or on what lies above it: steeply above the low node.
         const auto is_steep = [&](double share) {
-            const Vector2d at = place(share);
-            return tip_.lowest(at + kBeside * up) - tip_.lowest(at) > steepest * kBeside;
+            const double here = tip_.lowest(place(share));
+            const double beside = tip_.lowest(place(share) + kBeside * up);
+            return beside - here > steepest * kBeside ||
+                   beside - low.z() > steepest * (share * grid_.step + kBeside);
         };
         double share = 0.5;
         if (high.z() - low.z() > steepest * grid_.step && !is_steep(0)) {
@@ -565,6 +588,20 @@ decomp::Result<Finished> finish(const Work& work, const cutter::Surface& surface
     finishing.lines();
     remove(stock, finishing.heights_on(stock), cutter.tool);
     return finishing.figures();
+}
+
+decomp::Status feet(const Work& work, const cutter::Surface& surface, const Cutter& cutter,
+                    double step_mm, decomp::Run& run) {
+    Finishing finishing(work, cutter,
+                        Tip(surface, cutter.tool,
+                            body_tips(work.maps.stock, cutter.tool, work.task),
+                            work.bench.floor_z));
+    if (!finishing.sample(step_mm, run)) {
+        return decomp::cancelled();
+    }
+    finishing.sort_feet();
+    finishing.lines();
+    return {};
 }
 
 decomp::Status contour(const Work& work, const cutter::Surface& surface, const Cutter& cutter,

@@ -30,6 +30,12 @@ struct Finished {
                                               const Cutter& cutter, bool rest_only,
                                               decomp::Run& run);
 
+/// The feet of walls on ground that a flat tool reaches and the round tips before it did not: lines
+/// `step_mm` apart, where they leave more than a trace.
+/// @error run.cancelled
+[[nodiscard]] decomp::Status feet(const Work& work, const cutter::Surface& surface,
+                                  const Cutter& cutter, double step_mm, decomp::Run& run);
+
 /// The foot of the outline, where a round tip cannot go: level lines of a flat tool from `from_z`
 /// down to the floor, `step_mm` apart.
 /// @error run.cancelled

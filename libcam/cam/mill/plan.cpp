@@ -167,6 +167,12 @@ decomp::Status plan_bench(Bench& bench, const Roles& roles, path::MillPlan& plan
         }
         rest = true;
     }
+    if (roles.foot != nullptr && round > 0) {
+        auto done = feet(work, surface, *roles.foot, kFootStep, run);
+        if (!done) {
+            return done;
+        }
+    }
     writer.finish();
     return {};
 }

@@ -51,7 +51,9 @@ void Tip::refine(const Vector3d& a, const Vector3d& b, std::vector<Vector3d>& ou
     const double chord = (a.z() + b.z()) / 2;
     const double z = lowest(middle, chord - kDip);
     const bool gouges = z > chord + kFinishToleranceMm || cuts_beside_middle(a, b);
-    const bool dips = z <= chord - kDip && length > kCoarsest;
+    // A steep chord goes up a wall: right beside it, or it leaves the foot.
+    const bool steep = std::abs(a.z() - b.z()) > length;
+    const bool dips = z <= chord - kDip && length > (steep ? kShortest : kCoarsest);
     if (!gouges && !dips) {
         return;
     }

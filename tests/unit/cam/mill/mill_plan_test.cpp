@@ -218,6 +218,46 @@ TEST(MillPlan, FinishingReachesTheFootOfAWallWhereverTheLinesRun) {
     }
 }
 
+TEST(MillPlan, AFlatToolTakesTheFilletThatTheRoundOneLeavesAtTheFootOfAWall) {
+    // A round pocket with an upright wall: a ball of 6 mm leaves 3 mm of fillet around its floor.
+    const Part dish =
+        tests::whole_part(tests::revolved(4, {{8, 4}, {8, 10}, {14, 10}, {14, 0}}, 0, 72));
+    MillTask task = tests::soft_task(6);
+    task.setups = Setups::One;
+    task.scallop_mm = 0.1;
+    decomp::Run run;
+    const auto plan = plan_milling(dish, task, run);
+    ASSERT_TRUE(plan) << plan.error().message;
+    const MillProgram& program = plan->programs[0];
+    const double apothem = 8 * std::cos(std::numbers::pi / 72);
+    std::vector<Vector3d> feet;
+    std::vector<Vector3d> walls;
+    for (int i = 0; i < 60; ++i) {
+        const double turn = 2 * std::numbers::pi * i / 60;
+        const Vector3d out(std::cos(turn), std::sin(turn), 0);
+        feet.push_back(program.from_model * Vector3d((apothem - 0.04) * out + Vector3d(0, 0, 4)));
+        walls.push_back(program.from_model * Vector3d(8.01 * out + Vector3d(0, 0, 7)));
+    }
+    std::vector<double> left(feet.size(), 100);
+    for (const Piece& piece : pieces_of(program)) {
+        const int steps = 1 + static_cast<int>((piece.to - piece.from).norm() / 0.05);
+        for (int s = 0; piece.tool == 1 && !piece.rapid && s <= steps; ++s) {
+            const Vector3d at = piece.from + (piece.to - piece.from) * s / steps;
+            for (std::size_t i = 0; i < feet.size(); ++i) {
+                if ((feet[i] - at).head<2>().norm() < 3) {
+                    left[i] = std::min(left[i], at.z() - feet[i].z());
+                }
+                EXPECT_FALSE((walls[i] - at).head<2>().norm() < 3 && at.z() < walls[i].z())
+                    << at.transpose();
+            }
+        }
+    }
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+        EXPECT_LT(left[i], 0.02) << feet[i].transpose();
+        EXPECT_GT(left[i], -0.005) << feet[i].transpose();
+    }
+}
+
 TEST(MillPlan, TheSamePlanComesOutAtAnyNumberOfThreads) {
     MillTask task = tests::soft_task(6);
     task.scallop_mm = 0.1;
