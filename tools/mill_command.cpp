@@ -147,14 +147,34 @@ std::vector<MillFile> all_files(const MillSheet& sheet, const std::vector<Proved
     return files;
 }
 
+decomp::Status refuse_existing(const fs::path& file) {
+    if (fs::exists(file)) {
+        return decomp::fail("file.exists", "the file exists already", file.string(),
+                            "mill every part into a folder of its own, or add --force");
+    }
+    return {};
+}
+
+/// What every run writes, whatever the plan: known before an hour of planning.
+decomp::Status refuse_earlier_run(const Command& command) {
+    const fs::path directory = command.out.parent_path();
+    const std::string stem = command.out.stem().string();
+    for (const std::string& name :
+         {std::string("setup.json"), stem + ".part.stl", stem + ".html"}) {
+        if (auto free = refuse_existing(directory / name); !free) {
+            return free;
+        }
+    }
+    return {};
+}
+
 /// All or none where a file is in the way.
 decomp::Status write_files(const fs::path& directory, const std::vector<MillFile>& files,
                            bool force) {
     for (const MillFile& file : files) {
-        if (!force && fs::exists(directory / file.name)) {
-            return decomp::fail("file.exists", "the file exists already",
-                                (directory / file.name).string(),
-                                "choose another name, or add --force");
+        auto free = force ? decomp::Status{} : refuse_existing(directory / file.name);
+        if (!free) {
+            return free;
         }
     }
     std::error_code ignored;
@@ -200,6 +220,11 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     const auto material = cam::profile::read_mill_material(command.material);
     if (!material) {
         return decomp::fail(material.error());
+    }
+    if (!command.force) {
+        if (const auto free = refuse_earlier_run(command); !free) {
+            return decomp::fail(free.error());
+        }
     }
     const auto input = read_check_input(command.input, run);
     if (!input) {

@@ -63,4 +63,16 @@ TEST(Mill, ABumpyBlockWithAPocketIsProved) {
     EXPECT_LT(answer["programs"][0]["unreachable_percent"], 8) << answer.dump(1);
 }
 
+TEST(Mill, WhatIsThereIsNotOverwrittenAndThatIsSaidBeforePlanning) {
+    const tests::TempDir dir;
+    fs::create_directories(dir / "out");
+    ASSERT_TRUE(decomp::write_file(dir / "out" / "setup.json", "{}", decomp::Overwrite::Refuse));
+    const auto run = hew({"mill", bumpy_block(dir), "--machine", "linuxcnc-router-3axis", "-o",
+                          (dir / "out" / "p.ngc").string(), "--json"});
+    EXPECT_EQ(run.exit_code, 6) << run.err;
+    EXPECT_EQ(object_of(run)["error"]["code"], "file.exists");
+    EXPECT_EQ(run.err.find(" %"), std::string::npos) << "nothing was begun: " << run.err;
+    EXPECT_EQ(*decomp::read_file(dir / "out" / "setup.json"), "{}");
+}
+
 }  // namespace
