@@ -119,11 +119,11 @@ Result<std::vector<MillFile>> written_programs(const Command& command,
 Result<std::vector<ProvedMilling>> proofs_of(const std::vector<MillFile>& programs,
                                              const cam::path::MillPlan& plan,
                                              const decomp::mesh::TriMesh& part,
-                                             const cam::profile::MillSetup& setup) {
+                                             const cam::profile::MillSetup& setup, Run& run) {
     std::vector<ProvedMilling> proofs;
     proofs.reserve(programs.size());
     for (std::size_t i = 0; i < programs.size(); ++i) {
-        auto proof = prove_milling(programs[i].text, plan, i, part, setup);
+        auto proof = prove_milling(programs[i].text, plan, i, part, setup, run);
         if (!proof) {
             return decomp::fail(proof.error());
         }
@@ -141,6 +141,7 @@ std::vector<MillFile> all_files(const MillSheet& sheet, const std::vector<Proved
         const std::string& program = sheet.programs[i].name;
         files.push_back({program + ".proof.json", proofs[i].sidecar});
         files.push_back({fs::path(program).stem().string() + ".stock.ply", proofs[i].stock});
+        files.push_back({sheet.pictures[i], proofs[i].picture});
     }
     files.push_back({"setup.json", setup_json(sheet).dump(1) + "\n"});
     files.push_back({stem + ".html", sheet_html(sheet)});
@@ -251,7 +252,7 @@ Result<Answer> mill(const Command& command, const Run& outer) {
         return decomp::fail(programs.error());
     }
     const decomp::mesh::TriMesh& part = input->parts.front().mesh;
-    const auto proofs = proofs_of(*programs, *plan, part, *setup);
+    const auto proofs = proofs_of(*programs, *plan, part, *setup, run);
     if (!proofs) {
         return decomp::fail(proofs.error());
     }
@@ -260,6 +261,9 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     sheet.setup = &*setup;
     sheet.part_file = stem + ".part.stl";
     sheet.material = material->title;
+    for (const MillFile& program : *programs) {
+        sheet.pictures.push_back(fs::path(program.name).stem().string() + ".stock.png");
+    }
     sheet.programs = std::move(*programs);
     const fs::path directory = command.out.parent_path();
     const auto written =

@@ -3,9 +3,12 @@
 
 #include "cam/millproof/prove.h"
 #include "cam/millproof/record.h"
+#include "cam/render/render.h"
 #include "decomp/base/number.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace tools {
 
@@ -64,12 +67,38 @@ std::string proof_text(const cam::millproof::MillProof& proof) {
     return text;
 }
 
+/// What remains of the block, from the front and above.
+decomp::Result<std::string> picture_of(const cam::millproof::DeviationMesh& stock,
+                                       decomp::Run& run) {
+    namespace render = cam::render;
+    const auto paint = [](double deviation_mm) {
+        const auto rgb = cam::millproof::deviation_colour(deviation_mm, kColourRangeMm);
+        return render::Rgb{rgb[0], rgb[1], rgb[2]};
+    };
+    render::Item item;
+    item.mesh = &stock.mesh;
+    item.triangle_colours.reserve(stock.colours.size());
+    for (const auto& rgb : stock.colours) {
+        item.triangle_colours.push_back({rgb[0], rgb[1], rgb[2]});
+    }
+    render::ViewOptions options;
+    options.margin = 0.08;
+    options.edges = false;
+    const std::string range = decomp::decimal(kColourRangeMm, 1) + " MM";
+    options.legend = {{paint(0), "AS THE PART"},
+                      {paint(kColourRangeMm), range + " LEFT OR MORE"},
+                      {paint(-kColourRangeMm), range + " TOO DEEP OR MORE"},
+                      {paint(std::nan("")), "BESIDE THE PART"}};
+    return render::render_meshes_png({item}, options, run);
+}
+
 }  // namespace
 
 decomp::Result<ProvedMilling> prove_milling(const std::string& program,
                                             const cam::path::MillPlan& plan, std::size_t set_up,
                                             const decomp::mesh::TriMesh& part,
-                                            const cam::profile::MillSetup& setup) {
+                                            const cam::profile::MillSetup& setup,
+                                            decomp::Run& run) {
     decomp::mesh::TriMesh here = part;
     for (Eigen::Vector3d& p : here.points) {
         p = plan.programs[set_up].from_model * p;
@@ -87,8 +116,13 @@ decomp::Result<ProvedMilling> prove_milling(const std::string& program,
     ProvedMilling out;
     out.passed = proof->passed();
     out.sidecar = cam::millproof::proof_json(*proof, program, job, options, setup.hash);
-    out.stock = cam::millproof::deviation_ply(
-        cam::millproof::deviation_mesh(proof->stock, job, kColourRangeMm, 2));
+    const auto stock = cam::millproof::deviation_mesh(proof->stock, job, kColourRangeMm, 2);
+    out.stock = cam::millproof::deviation_ply(stock);
+    auto picture = picture_of(stock, run);
+    if (!picture) {
+        return decomp::fail(picture.error());
+    }
+    out.picture = std::move(*picture);
     out.figures = {{"passed", out.passed},
                    {"seconds", figures.seconds},
                    {"cut_mm", figures.cut_mm},

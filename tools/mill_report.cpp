@@ -164,7 +164,9 @@ std::string programs_html(const MillSheet& sheet) {
         for (const auto& [name, count] : operations) {
             html += "<tr><td>" + name + "</td><td>" + std::to_string(count) + "</td></tr>";
         }
-        html += "</table>";
+        html += "</table><p><img src=\"" + escaped(sheet.pictures[i]) +
+                "\" style=\"width:14cm\" alt=\"what remains of the block\"><br>What the proof "
+                "found to remain, coloured by how far it is from the part.</p>";
     }
     return html;
 }

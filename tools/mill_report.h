@@ -23,7 +23,8 @@ struct MillSheet {
     std::string part_file;
     std::string material;
     std::vector<MillFile> programs;
-    std::vector<std::string> notes;  ///< of the feeds
+    std::vector<std::string> pictures;  ///< files: what remains after each program
+    std::vector<std::string> notes;     ///< of the feeds
 };
 
 /// Seconds of cutting and of rapids at full speed, accelerations and changes of tool left out.

@@ -61,6 +61,12 @@ TEST(Mill, ABumpyBlockWithAPocketIsProved) {
     const Json answer = object_of(run);
     EXPECT_EQ(answer["programs"][0]["max_gouge_mm"], 0) << answer.dump(1);
     EXPECT_LT(answer["programs"][0]["unreachable_percent"], 8) << answer.dump(1);
+    const auto picture = decomp::read_file(dir / "out" / "p.stock.png");
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->substr(1, 3), "PNG");
+    const auto sheet = decomp::read_file(dir / "out" / "p.html");
+    ASSERT_TRUE(sheet);
+    EXPECT_NE(sheet->find("src=\"p.stock.png\""), std::string::npos);
 }
 
 TEST(Mill, WhatIsThereIsNotOverwrittenAndThatIsSaidBeforePlanning) {

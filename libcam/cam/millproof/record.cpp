@@ -40,19 +40,6 @@ std::string hash_of(const decomp::mesh::TriMesh& mesh) {
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-std::array<std::uint8_t, 3> colour(double deviation, double range) {
-    const double t = std::clamp(std::abs(deviation) / range, 0.0, 1.0);
-    const auto strong = static_cast<std::uint8_t>(std::lround(70 + 185 * t));
-    const auto weak = static_cast<std::uint8_t>(std::lround(190 * (1 - t)));
-    if (deviation > range / 10) {
-        return {strong, weak, 60};
-    }
-    if (deviation < -range / 10) {
-        return {60, weak, strong};
-    }
-    return {90, 190, 90};
-}
-
 /// Heights of the part at the corners of squares, by its up-facing triangles; NaN where none is.
 std::vector<double> part_heights(const MillJob& job, const Nodes& corners) {
     std::vector<double> out(corners.count(), std::nan(""));
@@ -73,11 +60,26 @@ std::array<std::uint8_t, 3> colour_of(const std::array<double, 4>& deviations, d
             mildest = here;
         }
     }
-    return std::isnan(mildest) ? std::array<std::uint8_t, 3>{170, 170, 170}
-                               : colour(mildest, range);
+    return deviation_colour(mildest, range);
 }
 
 }  // namespace
+
+std::array<std::uint8_t, 3> deviation_colour(double deviation_mm, double range_mm) {
+    if (std::isnan(deviation_mm)) {
+        return {170, 170, 170};
+    }
+    const double t = std::clamp(std::abs(deviation_mm) / range_mm, 0.0, 1.0);
+    const auto strong = static_cast<std::uint8_t>(std::lround(70 + 185 * t));
+    const auto weak = static_cast<std::uint8_t>(std::lround(190 * (1 - t)));
+    if (deviation_mm > range_mm / 10) {
+        return {strong, weak, 60};
+    }
+    if (deviation_mm < -range_mm / 10) {
+        return {60, weak, strong};
+    }
+    return {90, 190, 90};
+}
 
 std::string proof_json(const MillProof& proof, std::string_view program, const MillJob& job,
                        const ProofOptions& options, std::string_view profile_sha256) {

@@ -27,6 +27,10 @@ struct DeviationMesh {
     std::vector<std::array<std::uint8_t, 3>> colours;  ///< one a triangle
 };
 
+/// Grey for no number, green within a tenth of `range_mm`, to red where stock is left, to blue
+/// where the part is cut.
+[[nodiscard]] std::array<std::uint8_t, 3> deviation_colour(double deviation_mm, double range_mm);
+
 /// Two triangles for each square of cells; grey where no part lies below, green within a tenth of
 /// `range_mm`, to red where stock is left, to blue where the part is cut. `step` cells make a
 /// square.
