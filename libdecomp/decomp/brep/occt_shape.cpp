@@ -18,8 +18,10 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace decomp::brep {
 
@@ -42,20 +44,42 @@ Handle(Geom_Curve) curve_of(const solid::Curve& curve) {
     return new Geom_Ellipse(place, ellipse.major.norm(), ellipse.minor.norm());
 }
 
-Handle(Geom_Surface) surface_of(const solid::Surface& surface) {
+/// Where a curved surface is laid out from: a point off its axis, at angle 0.
+gp_Ax3 place_of(const Eigen::Vector3d& on_axis, const Eigen::Vector3d& axis,
+                const Eigen::Vector3d& start) {
+    const Eigen::Vector3d d = start - on_axis;
+    const Eigen::Vector3d out = d - axis * axis.dot(d);
+    return {point(on_axis), direction(axis),
+            direction(out.norm() > 0 ? out : solid::reference_direction(axis))};
+}
+
+/// @param start where the face's angle about the axis begins
+Handle(Geom_Surface) surface_of(const solid::Surface& surface, const Eigen::Vector3d& start) {
     if (const auto* plane = std::get_if<solid::PlaneSurface>(&surface)) {
         return new Geom_Plane(point(plane->normal * plane->offset_mm), direction(plane->normal));
     }
     if (const auto* cylinder = std::get_if<solid::CylinderSurface>(&surface)) {
-        return new Geom_CylindricalSurface(
-            gp_Ax3(point(cylinder->origin), direction(cylinder->axis),
-                   direction(solid::reference_direction(cylinder->axis))),
-            cylinder->radius_mm);
+        return new Geom_CylindricalSurface(place_of(cylinder->origin, cylinder->axis, start),
+                                           cylinder->radius_mm);
     }
+    // From there and not from the apex, which may be far away.
     const auto& cone = std::get<solid::ConeSurface>(surface);
-    return new Geom_ConicalSurface(gp_Ax3(point(cone.apex), direction(cone.axis),
-                                          direction(solid::reference_direction(cone.axis))),
-                                   cone.half_angle, 0);
+    const double height = cone.axis.dot(start - cone.apex);
+    return new Geom_ConicalSurface(place_of(cone.apex + height * cone.axis, cone.axis, start),
+                                   cone.half_angle, height * std::tan(cone.half_angle));
+}
+
+/// Half a turn about the axis away from p.
+Eigen::Vector3d opposite(const solid::Surface& surface, const Eigen::Vector3d& p) {
+    if (const auto* cylinder = std::get_if<solid::CylinderSurface>(&surface)) {
+        const Eigen::Vector3d d = p - cylinder->origin;
+        return cylinder->origin + 2 * cylinder->axis * cylinder->axis.dot(d) - d;
+    }
+    if (const auto* cone = std::get_if<solid::ConeSurface>(&surface)) {
+        const Eigen::Vector3d d = p - cone->apex;
+        return cone->apex + 2 * cone->axis * cone->axis.dot(d) - d;
+    }
+    return p;
 }
 
 /// Makes the kernel's shape of a solid: every vertex and every edge once.
@@ -114,9 +138,31 @@ class ShapeMaker {
         return made;
     }
 
+    [[nodiscard]] Eigen::Vector3d point_of(std::int32_t edge, double share) const {
+        const solid::Edge& of = solid_.edges[static_cast<std::size_t>(edge)];
+        return solid::point_at(of.curve, of.t0 + share * (of.t1 - of.t0));
+    }
+
+    /// Where a curved face shall have angle 0: on its seam, or opposite to its middle. The kernel's
+    /// mesher leaves cones without triangles that go past a full turn.
+    [[nodiscard]] Eigen::Vector3d start_of(const solid::Face& face) const {
+        const solid::Loop& outer = face.loops.at(0);
+        std::vector<std::int32_t> seen;
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const solid::EdgeUse& use : outer) {
+            if (std::find(seen.begin(), seen.end(), use.edge) != seen.end()) {
+                return point_of(use.edge, 0);
+            }
+            seen.push_back(use.edge);
+            middle += (point_of(use.edge, 0.25) + point_of(use.edge, 0.75)) /
+                      (2 * static_cast<double>(outer.size()));
+        }
+        return opposite(face.surface, middle);
+    }
+
     [[nodiscard]] TopoDS_Face make_face(const solid::Face& face) const {
         TopoDS_Face made;
-        builder_.MakeFace(made, surface_of(face.surface), solid_.tolerance_mm);
+        builder_.MakeFace(made, surface_of(face.surface, start_of(face)), solid_.tolerance_mm);
         const bool curved = !std::holds_alternative<solid::PlaneSurface>(face.surface);
         for (const solid::Loop& loop : face.loops) {
             TopoDS_Wire wire;
@@ -135,6 +181,7 @@ class ShapeMaker {
                 fix->FixEdgeCurvesMode() = 1;
                 fix->FixEdgeCurves();
                 fix->FixShifted();
+                fix->FixDegenerated();  // the apex of a cone
                 wire = fix->Wire();
             }
             builder_.Add(made, wire);
