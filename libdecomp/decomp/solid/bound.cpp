@@ -16,18 +16,20 @@ double turn_between(double from, double to) {
     return turn == -std::numbers::pi ? std::numbers::pi : turn;
 }
 
-double angle_about(const Surface& surface, const Eigen::Vector3d& p) {
-    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+AxisLine axis_of(const Surface& surface) {
     if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
-        axis = cylinder->axis;
-        origin = cylinder->origin;
-    } else if (const auto* cone = std::get_if<ConeSurface>(&surface)) {
-        axis = cone->axis;
-        origin = cone->apex;
+        return {cylinder->origin, cylinder->axis};
     }
-    const Eigen::Vector3d u = reference_direction(axis);
-    return std::atan2(axis.cross(u).dot(p - origin), u.dot(p - origin));
+    if (const auto* cone = std::get_if<ConeSurface>(&surface)) {
+        return {cone->apex, cone->axis};
+    }
+    return {};
+}
+
+double angle_about(const Surface& surface, const Eigen::Vector3d& p) {
+    const AxisLine line = axis_of(surface);
+    const Eigen::Vector3d u = reference_direction(line.axis);
+    return std::atan2(line.axis.cross(u).dot(p - line.origin), u.dot(p - line.origin));
 }
 
 namespace {
@@ -51,7 +53,7 @@ class Walker {
         if (refused_.empty()) {
             make_shells();
         }
-        out_.solid.tolerance_mm = std::max(kKernelMm, 2 * settled_.off_mm);
+        out_.solid.tolerance_mm = std::max(kKernelMm, 2 * std::max(settled_.off_mm, off_mm_));
         out_.refused.assign(refused_.begin(), refused_.end());
         return std::move(out_);
     }
@@ -90,6 +92,10 @@ class Walker {
             return r >= 0 && !std::holds_alternative<PlaneSurface>(
                                  regions_.all[static_cast<std::size_t>(r)].surface);
         };
+        const auto is_cone = [&](std::int32_t r) {
+            return r >= 0 && std::holds_alternative<ConeSurface>(
+                                 regions_.all[static_cast<std::size_t>(r)].surface);
+        };
         const auto area = [&](std::int32_t r) {
             return regions_.all[static_cast<std::size_t>(r)].area_mm2;
         };
@@ -98,6 +104,10 @@ class Walker {
         }
         if (a < 0 || b < 0) {
             refused_.insert(std::max(a, b));
+        } else if (is_cone(a) != is_cone(b) && curved(a) && curved(b)) {
+            // The rings of a rounded corner are cones one by one; the fillets beside it are
+            // cylinders.
+            refused_.insert(is_cone(a) ? a : b);
         } else if (curved(a) && curved(b) &&
                    std::max(area(a), area(b)) < kAlike * std::min(area(a), area(b))) {
             // The sectors of a ring look like cylinders one by one: none of them is.
@@ -153,6 +163,7 @@ class Walker {
         Edge edge;
         if (curve) {
             edge = {curve->curve, from, to, curve->t0, curve->t1};
+            off_mm_ = std::max(off_mm_, curve->off_mm);
         } else {
             refuse(left, right);
         }
@@ -265,7 +276,8 @@ class Walker {
         if (rims == 0) {
             return !rings.empty();
         }
-        return rims == 2 && sum == 0 && add_seam(out_.solid, face, paths, round);
+        return rims == 2 ? sum == 0 && add_seam(out_.solid, face, paths, round)
+                         : rims == 1 && add_apex(out_.solid, face, paths, round);
     }
 
     /// A closed edge that no seam has given a vertex gets one where its parameter begins.
@@ -369,6 +381,7 @@ class Walker {
     const FaceMap& faces_;
     const Settled& settled_;
     Bounded out_;
+    double off_mm_ = 0;  ///< left between an edge and its surfaces
     std::set<std::int32_t> refused_;
     std::vector<std::int32_t> vertex_of_;
     std::vector<EdgeUse> use_of_;

@@ -53,6 +53,20 @@ struct Bounded {
                             const std::vector<std::vector<Eigen::Vector3d>>& walk,
                             const std::vector<int>& round);
 
+/// Gives a face that goes round the apex of its cone an edge from its rim to there. False where
+/// something lies in the way, or the surface is no cone.
+[[nodiscard]] bool add_apex(Solid& solid, std::int32_t face,
+                            const std::vector<std::vector<Eigen::Vector3d>>& walk,
+                            const std::vector<int>& round);
+
+struct AxisLine {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+};
+
+/// The axis of a cylinder or cone.
+[[nodiscard]] AxisLine axis_of(const Surface& surface);
+
 /// Signed angle of p about the axis of a cylinder or cone.
 [[nodiscard]] double angle_about(const Surface& surface, const Eigen::Vector3d& p);
 

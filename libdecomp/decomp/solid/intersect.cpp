@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,7 +16,14 @@ namespace {
 constexpr double kParallel = 1e-6;  ///< sine of the angle between directions that count as one
 constexpr double kSlender = 1e-3;   ///< a longer ellipse is taken for a mistake
 constexpr double kShortestMm = 1e-6;
-constexpr double kOnCurveMm = 2e-6;  ///< between an end of the path and the curve
+constexpr double kOnCurveMm = 2e-6;  ///< between the curve and its ends or surfaces
+constexpr double kCoaxial = 1e-4;    ///< between axes that may be one; the curve decides
+
+EllipseCurve circle_about(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
+                          double radius_mm) {
+    const Eigen::Vector3d u = reference_direction(axis);
+    return {centre, radius_mm * u, radius_mm * axis.cross(u), true};
+}
 
 std::optional<EllipseCurve> section_of(const CylinderSurface& cylinder, const PlaneSurface& plane) {
     const double along = plane.normal.dot(cylinder.axis);
@@ -27,15 +35,39 @@ std::optional<EllipseCurve> section_of(const CylinderSurface& cylinder, const Pl
                    cylinder.axis * ((plane.offset_mm - plane.normal.dot(cylinder.origin)) / along);
     const Eigen::Vector3d minor = cylinder.axis.cross(plane.normal);
     if (minor.norm() < kParallel) {
-        const Eigen::Vector3d u = reference_direction(cylinder.axis);
-        curve.major = cylinder.radius_mm * u;
-        curve.minor = cylinder.radius_mm * cylinder.axis.cross(u);
-        return curve;
+        return circle_about(curve.centre, cylinder.axis, cylinder.radius_mm);
     }
     curve.minor = cylinder.radius_mm * minor.normalized();
     curve.major = (cylinder.radius_mm / std::abs(along)) * minor.normalized().cross(plane.normal);
     curve.circle = false;
     return curve;
+}
+
+std::optional<EllipseCurve> section_of(const ConeSurface& cone, const PlaneSurface& plane) {
+    const double along = plane.normal.dot(cone.axis);
+    const double slope = std::tan(cone.half_angle);
+    const double ahead = plane.offset_mm - plane.normal.dot(cone.apex);
+    const Eigen::Vector3d inclined = plane.normal - along * cone.axis;
+    if (inclined.norm() < kParallel) {
+        const double height = ahead / along;
+        return height > 0 ? std::optional(circle_about(cone.apex + height * cone.axis, cone.axis,
+                                                       height * slope))
+                          : std::nullopt;
+    }
+    // The plane meets the two straight lines of the cone that lie in its direction of descent.
+    const Eigen::Vector3d down = inclined.normalized();
+    const double low = ahead / (along + inclined.norm() * slope);
+    const double high = ahead / (along - inclined.norm() * slope);
+    if (!(low > 0) || !(high > 0) || high * kSlender > low || low * kSlender > high) {
+        return std::nullopt;  // a parabola or hyperbola
+    }
+    const Eigen::Vector3d from = low * (cone.axis + slope * down);
+    const Eigen::Vector3d to = high * (cone.axis - slope * down);
+    const Eigen::Vector3d middle = (from + to) / 2;
+    const double width_mm =
+        std::sqrt(std::pow(cone.axis.dot(middle) * slope, 2) - std::pow(down.dot(middle), 2));
+    return EllipseCurve{cone.apex + middle, (from - to) / 2, width_mm * cone.axis.cross(down),
+                        false};
 }
 
 std::optional<BoundedCurve> line_along(const std::vector<Eigen::Vector3d>& path) {
@@ -86,15 +118,69 @@ std::optional<BoundedCurve> generator_along(const Eigen::Vector3d& axis,
     return line;
 }
 
-}  // namespace
-
-std::optional<BoundedCurve> curve_along(const Surface& a, const Surface& b,
-                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
-    const auto* plane_a = std::get_if<PlaneSurface>(&a);
-    const auto* plane_b = std::get_if<PlaneSurface>(&b);
-    if (plane_a != nullptr && plane_b != nullptr) {
-        return closed ? std::nullopt : line_along(path);
+/// Along a straight line of a cone.
+std::optional<BoundedCurve> generator_along(const ConeSurface& cone,
+                                            const std::vector<Eigen::Vector3d>& path, bool closed) {
+    auto line = closed ? std::nullopt : line_along(path);
+    if (!line || std::get<LineCurve>(line->curve).direction.cross(cone.apex - path.front()).norm() >
+                     kOnCurveMm) {
+        return std::nullopt;
     }
+    return line;
+}
+
+std::optional<BoundedCurve> plane_curve(const PlaneSurface& plane, const CylinderSurface& cylinder,
+                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
+    if (std::abs(plane.normal.dot(cylinder.axis)) < kParallel) {
+        return generator_along(cylinder.axis, path, closed);
+    }
+    const auto section = section_of(cylinder, plane);
+    return section ? arc_along(*section, path, closed) : std::nullopt;
+}
+
+std::optional<BoundedCurve> plane_curve(const PlaneSurface& plane, const ConeSurface& cone,
+                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
+    if (std::abs(distance_mm(plane, cone.apex)) < kOnCurveMm) {
+        return generator_along(cone, path, closed);
+    }
+    const auto section = section_of(cone, plane);
+    return section ? arc_along(*section, path, closed) : std::nullopt;
+}
+
+/// Distance from an axis as a linear function of the height over its origin.
+struct Profile {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d axis;
+    double slope = 0;
+    double at_origin_mm = 0;
+};
+
+Profile profile_of(const Surface& surface) {
+    if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
+        return {cylinder->origin, cylinder->axis, 0, cylinder->radius_mm};
+    }
+    const auto& cone = std::get<ConeSurface>(surface);
+    return {cone.apex, cone.axis, std::tan(cone.half_angle), 0};
+}
+
+/// Where cylinders and cones about one axis cross.
+std::optional<EllipseCurve> common_circle(const Profile& a, const Profile& b) {
+    const double sense = a.axis.dot(b.axis) < 0 ? -1 : 1;
+    const Eigen::Vector3d apart = b.origin - a.origin;
+    if (a.axis.cross(b.axis).norm() > kCoaxial || apart.cross(a.axis).norm() > kCoaxial ||
+        std::abs(a.slope - sense * b.slope) < kParallel) {
+        return std::nullopt;
+    }
+    const double height = (b.at_origin_mm - sense * b.slope * a.axis.dot(apart) - a.at_origin_mm) /
+                          (a.slope - sense * b.slope);
+    const double radius_mm = a.at_origin_mm + a.slope * height;
+    return radius_mm > kShortestMm
+               ? std::optional(circle_about(a.origin + height * a.axis, a.axis, radius_mm))
+               : std::nullopt;
+}
+
+std::optional<BoundedCurve> round_curve(const Surface& a, const Surface& b,
+                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
     const auto* cylinder_a = std::get_if<CylinderSurface>(&a);
     const auto* cylinder_b = std::get_if<CylinderSurface>(&b);
     if (cylinder_a != nullptr && cylinder_b != nullptr) {
@@ -102,16 +188,48 @@ std::optional<BoundedCurve> curve_along(const Surface& a, const Surface& b,
                    ? generator_along(cylinder_a->axis, path, closed)
                    : std::nullopt;
     }
-    const PlaneSurface* plane = plane_a != nullptr ? plane_a : plane_b;
-    const CylinderSurface* cylinder = cylinder_a != nullptr ? cylinder_a : cylinder_b;
-    if (plane == nullptr || cylinder == nullptr) {
-        return std::nullopt;
+    // By the steeper one: a circle of the other lies where it is wide enough.
+    const bool swapped = profile_of(a).slope < profile_of(b).slope;
+    const auto circle = common_circle(profile_of(swapped ? b : a), profile_of(swapped ? a : b));
+    return circle ? arc_along(*circle, path, closed) : std::nullopt;
+}
+
+std::optional<BoundedCurve> curve_between(const Surface& a, const Surface& b,
+                                          const std::vector<Eigen::Vector3d>& path, bool closed) {
+    const auto* plane = std::get_if<PlaneSurface>(&a);
+    const Surface& other = plane != nullptr ? b : a;
+    plane = plane != nullptr ? plane : std::get_if<PlaneSurface>(&b);
+    if (plane == nullptr) {
+        return round_curve(a, b, path, closed);
     }
-    if (std::abs(plane->normal.dot(cylinder->axis)) < kParallel) {
-        return generator_along(cylinder->axis, path, closed);
+    if (const auto* cylinder = std::get_if<CylinderSurface>(&other)) {
+        return plane_curve(*plane, *cylinder, path, closed);
     }
-    const auto section = section_of(*cylinder, *plane);
-    return section ? arc_along(*section, path, closed) : std::nullopt;
+    if (const auto* cone = std::get_if<ConeSurface>(&other)) {
+        return plane_curve(*plane, *cone, path, closed);
+    }
+    return closed ? std::nullopt : line_along(path);
+}
+
+}  // namespace
+
+std::optional<BoundedCurve> curve_along(const Surface& a, const Surface& b,
+                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
+    auto found = curve_between(a, b, path, closed);
+    // Planes of needles are no measure of a line between them.
+    if (!found ||
+        (std::holds_alternative<PlaneSurface>(a) && std::holds_alternative<PlaneSurface>(b))) {
+        return found;
+    }
+    constexpr int kPieces = 8;
+    for (int i = 0; i <= kPieces; ++i) {
+        const Eigen::Vector3d p =
+            point_at(found->curve, found->t0 + (found->t1 - found->t0) * i / kPieces);
+        for (const Surface* surface : {&a, &b}) {
+            found->off_mm = std::max(found->off_mm, std::abs(distance_mm(*surface, p)));
+        }
+    }
+    return found->off_mm <= kOnCurveMm ? found : std::nullopt;
 }
 
 }  // namespace decomp::solid

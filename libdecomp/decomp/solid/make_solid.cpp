@@ -28,7 +28,7 @@ void give_way(const std::vector<std::int32_t>& refused, Regions& regions) {
     for (std::size_t t = 0; t < regions.of.size(); ++t) {
         const std::int32_t r = regions.of[t];
         if (r >= 0 && gone[static_cast<std::size_t>(r)]) {
-            // A cylinder goes back to its strips, a strip to its triangles.
+            // A curved region goes back to its strips, a strip to its triangles.
             regions.of[t] = regions.plane_of[t] == r ? -1 : regions.plane_of[t];
             if (regions.plane_of[t] == r) {
                 regions.plane_of[t] = -1;
@@ -91,7 +91,7 @@ Regions recognise(const part::Part& part, const Adjacency& adjacency, const Regi
                   Detail detail) {
     Regions regions = find_planes(part, adjacency, options);
     if (detail == Detail::Curved) {
-        find_cylinders(part, adjacency, options, regions);
+        find_curved(part, adjacency, options, regions);
     }
     return regions;
 }

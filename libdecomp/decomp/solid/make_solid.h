@@ -15,7 +15,7 @@ namespace decomp::solid {
 enum class Detail {
     CutsAlone,  ///< the faces that cuts have made
     Flat,       ///< and flat regions
-    Curved,     ///< and cylinders
+    Curved,     ///< and cylinders and cones
 };
 
 struct SolidOptions {
@@ -45,9 +45,10 @@ struct MadeSolid {
 };
 
 /// Makes a solid of a part's mesh: each cut face and each flat region becomes one planar face with
-/// holes, strips that chord a cylinder become that cylinder, every other triangle is a planar face.
-/// Edges are shared as in the mesh. Where surfaces cannot be made to meet along lines, circles and
-/// ellipses within the tolerance, a region goes back to its triangles. `part.sources` may be empty.
+/// holes, strips that chord a cylinder or a cone become that surface, every other triangle is a
+/// planar face. Edges are shared as in the mesh. Where surfaces cannot be made to meet along lines,
+/// circles and ellipses within the tolerance, a region goes back to its triangles. `part.sources`
+/// may be empty.
 /// @error solid.not_closed, solid.too_many_faces, solid.unsound, run.cancelled
 /// Cost O(n log n), about 20 us a triangle.
 [[nodiscard]] Result<MadeSolid> make_solid(const part::Part& part, const SolidOptions& options,

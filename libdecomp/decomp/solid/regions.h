@@ -36,11 +36,12 @@ struct RegionOptions {
 [[nodiscard]] Regions find_planes(const part::Part& part, const Adjacency& adjacency,
                                   const RegionOptions& options);
 
-/// Joins flat strips and triangles which chord one cylinder. A strip is a flat region with two
-/// parallel sides; a cylinder has three at least, none turned against its neighbour by more than 31
-/// degrees, and points that deviate from it far less than the strips do. The axis is laid square to
-/// a flat neighbour, or along it, where it almost is.
-void find_cylinders(const part::Part& part, const Adjacency& adjacency,
-                    const RegionOptions& options, Regions& regions);
+/// Joins flat strips and triangles which chord one cylinder, then those which chord one cone. A
+/// strip is a flat region with two straight sides that are parallel or meet in the apex; a surface
+/// has three at least, none turned about the axis against its neighbour by more than 31 degrees,
+/// and points that deviate from it far less than the strips do. The axis is laid square to a flat
+/// neighbour, along it, or on the axis of a curved one, where it almost is.
+void find_curved(const part::Part& part, const Adjacency& adjacency, const RegionOptions& options,
+                 Regions& regions);
 
 }  // namespace decomp::solid

@@ -2,7 +2,6 @@
 #include "decomp/solid/boundary.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -81,19 +80,30 @@ void split_edge(Solid& solid, std::int32_t number, std::int32_t vertex, double t
     }
 }
 
-/// The parameter of an edge at an angle about the axis, by bisection: the angle runs one way.
+/// The parameter of an edge that goes round the axis where it is at an angle about it: where it
+/// crosses the half plane of that angle.
 double parameter_at(const Surface& surface, const Edge& edge, double angle) {
-    double low = edge.t0;
-    double high = edge.t1;
-    const double start = angle_about(surface, point_at(edge.curve, low));
-    const double goal = turn_between(start, angle);
-    for (int i = 0; i < 200; ++i) {
-        const double middle = (low + high) / 2;
-        const double here = turn_between(start, angle_about(surface, point_at(edge.curve, middle)));
-        const bool before = goal > 0 ? here >= 0 && here < goal : here <= 0 && here > goal;
-        (before ? low : high) = middle;
+    const AxisLine line = axis_of(surface);
+    const Eigen::Vector3d u = reference_direction(line.axis);
+    const Eigen::Vector3d v = line.axis.cross(u);
+    const Eigen::Vector3d out = std::cos(angle) * u + std::sin(angle) * v;
+    const Eigen::Vector3d square = line.axis.cross(out);
+    if (const auto* straight = std::get_if<LineCurve>(&edge.curve)) {
+        return square.dot(line.origin - straight->origin) / square.dot(straight->direction);
     }
-    return (low + high) / 2;
+    const auto& conic = std::get<EllipseCurve>(edge.curve);
+    const double along = square.dot(conic.major);
+    const double across = square.dot(conic.minor);
+    const double spread = std::acos(
+        std::clamp(square.dot(line.origin - conic.centre) / std::hypot(along, across), -1.0, 1.0));
+    const double middle = std::atan2(across, along);
+    const auto is_ahead = [&](double t) {
+        return out.dot(point_at(edge.curve, t) - line.origin) > 0;
+    };
+    const double t = is_ahead(middle + spread) ? middle + spread : middle - spread;
+    // Within the edge, but for rounding.
+    constexpr double kRound = 2 * std::numbers::pi;
+    return t - kRound * std::floor((t - edge.t0 + kSameAngle) / kRound);
 }
 
 bool spans(const Surface& surface, const Edge& edge, double angle) {
@@ -120,13 +130,7 @@ std::optional<std::int32_t> vertex_at(Solid& solid, std::int32_t face, std::size
     if (rim.size() == 1 && solid.edges[static_cast<std::size_t>(rim[0].edge)].from < 0) {
         Edge& edge = solid.edges[static_cast<std::size_t>(rim[0].edge)];
         // The parameter starts anew where the seam meets the rim.
-        Edge whole = edge;
-        whole.t1 = whole.t0 + std::numbers::pi;
-        if (!spans(surface, whole, angle)) {
-            whole.t0 = whole.t1;
-            whole.t1 = edge.t1;
-        }
-        edge.t0 = parameter_at(surface, whole, angle);
+        edge.t0 = parameter_at(surface, edge, angle);
         edge.t1 = edge.t0 + 2 * std::numbers::pi;
         edge.from = edge.to = static_cast<std::int32_t>(solid.vertices.size());
         solid.vertices.push_back(point_at(edge.curve, edge.t0));
@@ -169,23 +173,15 @@ Loop started_at(const Solid& solid, const Loop& loop, std::int32_t vertex) {
     return {};
 }
 
-}  // namespace
-
-bool add_seam(Solid& solid, std::int32_t face, const std::vector<Path>& walk,
-              const std::vector<int>& round) {
-    const auto f = static_cast<std::size_t>(face);
-    const Surface surface = solid.faces[f].surface;
-    std::array<std::size_t, 2> rim{0, 0};
-    int rims = 0;
-    for (std::size_t i = 0; i < round.size(); ++i) {
-        if (round[i] != 0) {
-            rim.at(static_cast<std::size_t>(rims++)) = i;
-        }
-    }
+/// The first angle about the axis at which an edge along it is in nobody's way.
+std::optional<double> clear_angle(const Solid& solid, std::size_t face,
+                                  const std::vector<std::size_t>& rims,
+                                  const std::vector<Path>& walk, const std::vector<int>& round) {
+    const Surface& surface = solid.faces[face].surface;
     // Where a rim has vertices anyhow, the seam starts at one.
     std::vector<double> angles;
-    for (const std::size_t i : rim) {
-        for (const EdgeUse& use : solid.faces[f].loops[i]) {
+    for (const std::size_t i : rims) {
+        for (const EdgeUse& use : solid.faces[face].loops[i]) {
             const std::int32_t v = solid.edges[static_cast<std::size_t>(use.edge)].from;
             if (v >= 0) {
                 angles.push_back(angle_about(surface, solid.vertices[static_cast<std::size_t>(v)]));
@@ -198,39 +194,91 @@ bool add_seam(Solid& solid, std::int32_t face, const std::vector<Path>& walk,
     const auto clear = std::find_if(angles.begin(), angles.end(), [&](double angle) {
         return is_clear(surface, walk, round, angle);
     });
-    if (clear == angles.end()) {
+    return clear == angles.end() ? std::nullopt : std::optional(*clear);
+}
+
+/// A straight edge between two vertices; -1 where they are one.
+std::int32_t add_line(Solid& solid, std::int32_t from, std::int32_t to) {
+    const Eigen::Vector3d& start = solid.vertices[static_cast<std::size_t>(from)];
+    const Eigen::Vector3d way = solid.vertices[static_cast<std::size_t>(to)] - start;
+    if (way.norm() < kShortestMm) {
+        return -1;
+    }
+    solid.edges.push_back({LineCurve{start, way.normalized()}, from, to, 0, way.norm()});
+    return static_cast<std::int32_t>(solid.edges.size()) - 1;
+}
+
+/// The face gets this loop in place of those that go round its axis.
+void set_outer(Face& face, const Loop& outer, const std::vector<int>& round) {
+    std::vector<Loop> loops{outer};
+    for (std::size_t i = 0; i < round.size(); ++i) {
+        if (round[i] == 0) {
+            loops.push_back(face.loops[i]);
+        }
+    }
+    face.loops = std::move(loops);
+}
+
+std::vector<std::size_t> rims_of(const std::vector<int>& round) {
+    std::vector<std::size_t> rims;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+        if (round[i] != 0) {
+            rims.push_back(i);
+        }
+    }
+    return rims;
+}
+
+}  // namespace
+
+bool add_seam(Solid& solid, std::int32_t face, const std::vector<Path>& walk,
+              const std::vector<int>& round) {
+    const auto f = static_cast<std::size_t>(face);
+    const std::vector<std::size_t> rims = rims_of(round);
+    const auto angle = clear_angle(solid, f, rims, walk, round);
+    if (!angle) {
         return false;
     }
-    const auto start = vertex_at(solid, face, rim[0], *clear);
-    const auto end = vertex_at(solid, face, rim[1], *clear);
+    const auto start = vertex_at(solid, face, rims.at(0), *angle);
+    const auto end = vertex_at(solid, face, rims.at(1), *angle);
     if (!start || !end) {
         return false;
     }
-    const Eigen::Vector3d way = solid.vertices[static_cast<std::size_t>(*end)] -
-                                solid.vertices[static_cast<std::size_t>(*start)];
-    if (way.norm() < kShortestMm) {
+    const Loop first = started_at(solid, solid.faces[f].loops[rims[0]], *start);
+    const Loop second = started_at(solid, solid.faces[f].loops[rims[1]], *end);
+    const std::int32_t seam = add_line(solid, *start, *end);
+    if (first.empty() || second.empty() || seam < 0) {
         return false;
     }
-    const Loop first = started_at(solid, solid.faces[f].loops[rim[0]], *start);
-    const Loop second = started_at(solid, solid.faces[f].loops[rim[1]], *end);
-    if (first.empty() || second.empty()) {
-        return false;
-    }
-    const auto seam = static_cast<std::int32_t>(solid.edges.size());
-    solid.edges.push_back(
-        {LineCurve{solid.vertices[static_cast<std::size_t>(*start)], way.normalized()}, *start,
-         *end, 0, way.norm()});
     Loop whole = first;
     whole.push_back({seam, false});
     whole.insert(whole.end(), second.begin(), second.end());
     whole.push_back({seam, true});
-    std::vector<Loop> loops{whole};
-    for (std::size_t i = 0; i < round.size(); ++i) {
-        if (round[i] == 0) {
-            loops.push_back(solid.faces[f].loops[i]);
-        }
+    set_outer(solid.faces[f], whole, round);
+    return true;
+}
+
+bool add_apex(Solid& solid, std::int32_t face, const std::vector<Path>& walk,
+              const std::vector<int>& round) {
+    const auto f = static_cast<std::size_t>(face);
+    const Surface surface = solid.faces[f].surface;
+    const auto* cone = std::get_if<ConeSurface>(&surface);
+    const std::vector<std::size_t> rims = rims_of(round);
+    const auto angle = cone == nullptr ? std::nullopt : clear_angle(solid, f, rims, walk, round);
+    const auto start = angle ? vertex_at(solid, face, rims.at(0), *angle) : std::nullopt;
+    if (!start) {
+        return false;
     }
-    solid.faces[f].loops = std::move(loops);
+    Loop whole = started_at(solid, solid.faces[f].loops[rims[0]], *start);
+    solid.vertices.push_back(cone->apex);
+    const std::int32_t seam =
+        add_line(solid, *start, static_cast<std::int32_t>(solid.vertices.size()) - 1);
+    if (whole.empty() || seam < 0) {
+        return false;
+    }
+    whole.push_back({seam, false});
+    whole.push_back({seam, true});
+    set_outer(solid.faces[f], whole, round);
     return true;
 }
 

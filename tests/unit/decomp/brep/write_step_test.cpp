@@ -58,6 +58,62 @@ TEST(StepWriter, ADrilledPlateComesBackWithATrueHole) {
     EXPECT_NEAR(figures.volume_mm3, volume, 1e-9 * volume);
 }
 
+/// Between two radii, this far apart.
+double frustum_mm3(double r1, double r2, double height) {
+    return pi * height * (r1 * r1 + r1 * r2 + r2 * r2) / 3;
+}
+
+TEST(StepWriter, ConesComeBackAsConesOfTheirExactVolume) {
+    const Eigen::Affine3d turned(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+
+    struct Case {
+        const char* name;
+        TriMesh mesh;
+        std::size_t faces;
+        double volume_mm3;
+    };
+
+    const std::vector<Case> cases{
+        {"peg", tests::revolved(12, {{4, 12}, {10, 0}}, 0, 24), 3, frustum_mm3(10, 4, 12)},
+        {"flared peg", tests::revolved(12, {{10, 12}, {4, 0}}, 0, 200), 3, frustum_mm3(10, 4, 12)},
+        {"spike", tests::revolved(12, {{5, 0}}, 0, 24), 2, frustum_mm3(5, 0, 12)},
+        {"chamfered peg", tests::revolved(30, {{8, 30}, {10, 28}, {10, 0}}, 0, 32), 4,
+         pi * 100 * 28 + frustum_mm3(10, 8, 2)},
+        {"drilled", tests::revolved(5, {{4, 7.4}, {4, 20}, {10, 20}, {10, 0}}, 0, 24), 5,
+         pi * 100 * 20 - pi * 16 * 12.6 - frustum_mm3(4, 0, 2.4)},
+        {"countersunk", tests::revolved(8, {{3, 8}, {7, 12}, {20, 12}, {20, 0}}, 0, 24), 5,
+         pi * 400 * 12 - frustum_mm3(3, 7, 4)}};
+    for (const Case& one : cases) {
+        for (const TriMesh& mesh : {one.mesh, decomp::mesh::transformed(one.mesh, turned)}) {
+            const auto bodies = read_again(written({{one.name, solid_of(mesh)}}));
+            ASSERT_EQ(bodies.size(), 1) << one.name;
+            const BodyFigures& figures = bodies[0].figures;
+            EXPECT_TRUE(figures.valid && figures.closed) << one.name;
+            EXPECT_EQ(figures.faces, one.faces) << one.name;
+            EXPECT_EQ(figures.cones, 1) << one.name;
+            EXPECT_NEAR(figures.volume_mm3, one.volume_mm3, 1e-9 * one.volume_mm3) << one.name;
+        }
+    }
+}
+
+TEST(StepWriter, AConeBesideItsRimsIsCaught) {
+    // The seeded fault: the apex 0.1 mm off along the axis, or a half angle 1 mrad off.
+    for (const bool apex : {true, false}) {
+        auto solid = solid_of(tests::revolved(12, {{4, 12}, {10, 0}}, 0, 24));
+        for (auto& face : solid.faces) {
+            if (auto* cone = std::get_if<decomp::solid::ConeSurface>(&face.surface)) {
+                cone->apex.z() += apex ? 0.1 : 0;
+                cone->half_angle += apex ? 0 : 1e-3;
+            }
+        }
+        const auto file =
+            decomp::brep::write_step({{"P01", solid}}, "title", StepSchema::Ap214, decomp::Run{});
+        ASSERT_TRUE(file);
+        EXPECT_FALSE(file->figures[0].valid &&
+                     std::abs(file->figures[0].volume_mm3 / frustum_mm3(10, 4, 12) - 1) < 1e-9);
+    }
+}
+
 TEST(StepWriter, WithoutCurvesTheVolumeIsTheMeshs) {
     for (const TriMesh& mesh :
          {tests::box({0, 0, 0}, {10, 20, 30}), tests::sphere(20, 24, 11),

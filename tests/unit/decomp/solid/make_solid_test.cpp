@@ -4,6 +4,7 @@
 #include "decomp/mesh/check.h"
 #include "decomp/mesh/measure.h"
 #include "tests/support/machined.h"
+#include "tests/unit/decomp/solid/made.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -19,53 +20,12 @@ using decomp::solid::CylinderSurface;
 using decomp::solid::Detail;
 using decomp::solid::EllipseCurve;
 using decomp::solid::MadeSolid;
-using decomp::solid::SolidOptions;
-
-MadeSolid made(const TriMesh& mesh, const SolidOptions& options = {.tolerance_mm = 0.02}) {
-    const auto solid = decomp::solid::make_solid({"P01", mesh, {}}, options, decomp::Run{});
-    EXPECT_TRUE(solid) << (solid ? "" : solid.error().text());
-    return solid ? *solid : MadeSolid{};
-}
+using tests::euler;
+using tests::farthest_off;
+using tests::made;
 
 std::vector<CylinderSurface> cylinders_of(const MadeSolid& solid) {
-    std::vector<CylinderSurface> found;
-    for (const auto& face : solid.solid.faces) {
-        if (const auto* cylinder = std::get_if<CylinderSurface>(&face.surface)) {
-            found.push_back(*cylinder);
-        }
-    }
-    return found;
-}
-
-/// V - E + F, with one more loop counted for every hole in a face.
-long euler(const MadeSolid& solid) {
-    long holes = 0;
-    for (const auto& face : solid.solid.faces) {
-        holes += static_cast<long>(face.loops.size()) - 1;
-    }
-    return static_cast<long>(solid.solid.vertices.size()) -
-           static_cast<long>(solid.solid.edges.size()) +
-           static_cast<long>(solid.solid.faces.size()) - holes;
-}
-
-/// The largest distance between the ends of an edge and the surfaces on either side of it, and
-/// between its middle and them.
-double farthest_off(const MadeSolid& solid) {
-    double farthest = 0;
-    for (const auto& face : solid.solid.faces) {
-        for (const auto& loop : face.loops) {
-            for (const auto& use : loop) {
-                const auto& edge = solid.solid.edges[static_cast<std::size_t>(use.edge)];
-                for (const double s : {0.0, 0.3, 0.7, 1.0}) {
-                    const auto p =
-                        decomp::solid::point_at(edge.curve, edge.t0 + s * (edge.t1 - edge.t0));
-                    farthest =
-                        std::max(farthest, std::abs(decomp::solid::distance_mm(face.surface, p)));
-                }
-            }
-        }
-    }
-    return farthest;
+    return tests::surfaces_of<CylinderSurface>(solid);
 }
 
 TEST(Solid, ABoxHasSixFacesAndTwelveEdges) {
@@ -111,6 +71,16 @@ TEST(Solid, ARoundBarHasThreeFacesWhicheverWayItLies) {
     EXPECT_NEAR(cylinders[0].radius_mm, 5, 1e-9);
     EXPECT_NEAR(cylinders[0].axis.cross(turned.linear() * Eigen::Vector3d::UnitZ()).norm(), 0,
                 1e-9);
+}
+
+TEST(Solid, TheSeamRunsAlongTheSurfaceWhereverItStarts) {
+    for (int i = 0; i < 40; ++i) {
+        const Eigen::Affine3d turned(
+            Eigen::AngleAxisd(0.3 * i, Eigen::Vector3d(i % 3, 2, i % 5).normalized()));
+        EXPECT_LE(
+            farthest_off(made(decomp::mesh::transformed(tests::round_bar(5, 40, 32), turned))),
+            1e-9);
+    }
 }
 
 TEST(Solid, FloatCoordinatesStillMakeACylinder) {
@@ -164,8 +134,17 @@ TEST(Solid, CutFacesAreOneFaceEachEvenInOnePlane) {
     EXPECT_EQ(solid->solid.faces.size(), 7);
 }
 
+/// Its sections are ellipses: nothing on it is flat, round or conical.
+TriMesh egg(std::uint32_t around, std::uint32_t rings) {
+    TriMesh mesh = tests::sphere(20, around, rings);
+    for (Eigen::Vector3d& p : mesh.points) {
+        p = Eigen::Vector3d(p.x(), 0.8 * p.y() + 0.05 * p.z(), 0.9 * p.z());
+    }
+    return mesh;
+}
+
 TEST(Solid, ManyTrianglesAreJoinedWithinTheTolerance) {
-    const TriMesh ball = tests::sphere(20, 120, 60);
+    const TriMesh ball = egg(120, 60);
     const MadeSolid solid = made(ball, {.tolerance_mm = 0.1, .max_faces = 4000});
     EXPECT_LE(solid.solid.faces.size(), 4000);
     EXPECT_GT(solid.report.removed_points, 0);
@@ -174,7 +153,7 @@ TEST(Solid, ManyTrianglesAreJoinedWithinTheTolerance) {
 }
 
 TEST(Solid, TooManyFacesAreRefusedUnlessForced) {
-    const TriMesh ball = tests::sphere(20, 60, 30);
+    const TriMesh ball = egg(60, 30);
     const auto refused = decomp::solid::make_solid(
         {"P01", ball, {}}, {.tolerance_mm = 1e-4, .max_faces = 500}, decomp::Run{});
     ASSERT_FALSE(refused);
