@@ -330,6 +330,7 @@ Json step_part_json(const StepPartFacts& part) {
             {"faces", part.faces},
             {"planes", part.planes},
             {"cylinders", part.cylinders},
+            {"cones", part.cones},
             {"removed_points", part.removed_points},
             {"decimation_mm", part.decimation_mm},
             {"sagitta_mm", part.sagitta_mm},
@@ -343,6 +344,7 @@ StepPartFacts read_step_part(const Json& json) {
     part.faces = json.at("faces");
     part.planes = json.at("planes");
     part.cylinders = json.at("cylinders");
+    part.cones = json.value("cones", std::size_t{0});  // jobs of before had none
     part.removed_points = json.at("removed_points");
     part.decimation_mm = json.at("decimation_mm");
     part.sagitta_mm = json.at("sagitta_mm");

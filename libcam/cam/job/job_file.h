@@ -101,9 +101,10 @@ struct StepPartFacts {
     std::size_t faces = 0;
     std::size_t planes = 0;  ///< of more than one triangle
     std::size_t cylinders = 0;
+    std::size_t cones = 0;
     std::size_t removed_points = 0;
     double decimation_mm = 0;  ///< distance to the part, either way
-    double sagitta_mm = 0;     ///< of the chords that cylinders replace
+    double sagitta_mm = 0;     ///< of the chords that curved faces replace
     double volume_mm3 = 0;     ///< as the geometry kernel has it
 };
 

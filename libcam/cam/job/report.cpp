@@ -135,6 +135,7 @@ std::string report_json(const JobFile& job) {
                                     {"faces", part.faces},
                                     {"planes", part.planes},
                                     {"cylinders", part.cylinders},
+                                    {"cones", part.cones},
                                     {"decimation_mm", rounded(part.decimation_mm, 6)},
                                     {"sagitta_mm", rounded(part.sagitta_mm, 6)},
                                     {"volume_mm3", rounded(part.volume_mm3, 3)}});

@@ -43,7 +43,7 @@ bool is_sound(const WrittenPart& written, const decomp::mesh::TriMesh& mesh, dou
     const auto& figures = written.file.figures.at(0);
     const double volume_mm3 = decomp::mesh::volume_mm3(mesh);
     const bool as_it_was = written.made.report.removed_points == 0 &&
-                           written.made.report.moved_mm == 0 && written.made.report.cylinders == 0;
+                           written.made.report.moved_mm == 0 && written.made.report.sagitta_mm == 0;
     const double allowed_mm3 =
         kRounding * volume_mm3 + (as_it_was ? 0
                                             : (tolerance_mm + written.made.report.sagitta_mm) *
@@ -102,7 +102,7 @@ Result<WrittenPart> write_part(const decomp::part::Part& part, const Eigen::Isom
             return written;
         }
         run.info("step/" + part.id + ".step: not sound with " +
-                 std::string(detail == Detail::Curved ? "cylinders" : "joined faces") +
+                 std::string(detail == Detail::Curved ? "curved faces" : "joined faces") +
                  ", made again without");
     }
     return fail("job.step_unsound", "the part cannot be made a sound solid", part.id,
@@ -117,6 +117,7 @@ StepPartFacts facts_of(const std::string& id, const WrittenPart& written) {
     facts.faces = report.faces;
     facts.planes = report.planes;
     facts.cylinders = report.cylinders;
+    facts.cones = report.cones;
     facts.removed_points = report.removed_points;
     facts.decimation_mm = report.decimation_mm;
     facts.sagitta_mm = report.sagitta_mm;
@@ -127,7 +128,7 @@ StepPartFacts facts_of(const std::string& id, const WrittenPart& written) {
 }  // namespace
 
 StageKey step_key(const JobFile& job, const StageRunner& stages) {
-    constexpr int kRevision = 1;
+    constexpr int kRevision = 2;
     const StepWish& wish = job.options.step;
     StageKey key("step", kRevision);
     key.add("tolerance", wish.tolerance_mm.value_or(kPrintedStepMm))
