@@ -104,8 +104,10 @@ class ConeFinder {
 
     [[nodiscard]] std::vector<Eigen::Vector3d> points_of(
         const std::vector<std::uint32_t>& found) const {
+        const std::vector<std::uint32_t> numbers = facets_.points_of(found);
         std::vector<Eigen::Vector3d> points;
-        for (const std::uint32_t p : facets_.points_of(found)) {
+        points.reserve(numbers.size());
+        for (const std::uint32_t p : numbers) {
             points.push_back(facets_.point(p));
         }
         return points;
@@ -118,6 +120,7 @@ class ConeFinder {
     /// The cone through the points of a few strips.
     [[nodiscard]] std::optional<ConeFit> cone_of(const Chain& chain) const {
         std::vector<PlaneSurface> planes;
+        planes.reserve(chain.size());
         for (const std::uint32_t f : chain) {
             planes.push_back(facets_.plane(f));
         }
@@ -276,11 +279,13 @@ class ConeFinder {
         double median = 0;
         for (int round = 0; round < 4; ++round) {
             std::vector<double> off;
+            off.reserve(points.size());
             for (const Eigen::Vector3d& p : points) {
                 off.push_back(std::abs(cone.distance_mm(p)));
             }
             const Nearest nearest = nearest_of(off, options_.planar_mm);
             std::vector<Eigen::Vector3d> near;
+            near.reserve(nearest.near.size());
             for (const std::size_t i : nearest.near) {
                 near.push_back(points[i]);
             }

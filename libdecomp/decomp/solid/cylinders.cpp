@@ -162,19 +162,23 @@ class CylinderFinder {
         const Eigen::Vector3d centre = guess.rulings.in_space(guess.circle.centre);
         guess.rulings = Rulings::parallel(axis_of(found, guess.rulings.axis()));
         guess.circle.centre = guess.rulings(centre);
+        const std::vector<std::uint32_t> numbers = facets_.points_of(found);
         std::vector<Eigen::Vector2d> points;
-        for (const std::uint32_t p : facets_.points_of(found)) {
+        points.reserve(numbers.size());
+        for (const std::uint32_t p : numbers) {
             points.push_back(guess.rulings(facets_.point(p)));
         }
         const std::vector<TangentLine> touched = tangents_of(found, guess);
         double median = 0;
         for (int round = 0; round < 4; ++round) {
             std::vector<double> off;
+            off.reserve(points.size());
             for (const Eigen::Vector2d& q : points) {
                 off.push_back(std::abs((q - guess.circle.centre).norm() - guess.circle.radius));
             }
             const Nearest nearest = nearest_of(off, options_.planar_mm);
             std::vector<Eigen::Vector2d> near;
+            near.reserve(nearest.near.size());
             for (const std::size_t i : nearest.near) {
                 near.push_back(points[i]);
             }
