@@ -163,6 +163,8 @@ struct Cells {
 /// The line in which `carrier` meets plane `plane`.
 [[nodiscard]] Line line_of(Carrier carrier, std::int32_t plane);
 
-struct Complex::State : Cells {};
+struct Complex::State : Cells {
+    std::vector<Step> steps;
+};
 
 }  // namespace decomp::cut

@@ -73,7 +73,9 @@ Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part
     Result<std::vector<std::int32_t>> ids = split_region(*state_, region, *index);
     if (!ids || ids->size() == 1) {
         state_->planes.resize(planes_before);
+        return ids;
     }
+    state_->steps.push_back({Step::Kind::Split, region, plane, {}, *ids});
     return ids;
 }
 
@@ -99,16 +101,58 @@ Result<std::vector<SectionPiece>> Complex::section(std::int32_t region,
 
 Result<std::vector<std::int32_t>> Complex::split(std::int32_t region, const part::Plane& plane,
                                                  const std::vector<std::int32_t>& pieces) {
+    return split_some(region, plane, [&](const std::vector<SectionPiece>&) { return pieces; });
+}
+
+Result<std::vector<std::int32_t>> Complex::split_near(
+    std::int32_t region, const part::Plane& plane, const std::vector<Eigen::Vector3d>& inside_mm) {
+    return split_some(region, plane, [&](const std::vector<SectionPiece>& section) {
+        std::vector<std::int32_t> nearest;
+        for (const Eigen::Vector3d& point : inside_mm) {
+            const auto best = std::min_element(section.begin(), section.end(),
+                                               [&](const SectionPiece& l, const SectionPiece& r) {
+                                                   return (l.inside_mm - point).squaredNorm() <
+                                                          (r.inside_mm - point).squaredNorm();
+                                               });
+            if (best != section.end()) {
+                nearest.push_back(static_cast<std::int32_t>(best - section.begin()));
+            }
+        }
+        return nearest;
+    });
+}
+
+Result<std::vector<std::int32_t>> Complex::split_some(std::int32_t region, const part::Plane& plane,
+                                                      const Choose& choose) {
     DECOMP_ASSERT(region >= 0 && region < state_->regions);
     const std::size_t planes_before = state_->planes.size();
     const Result<std::int32_t> index = add_plane(*state_, plane);
     if (!index) {
         return fail(index.error());
     }
-    Result<std::vector<std::int32_t>> ids = split_region_at(*state_, region, *index, pieces);
-    if (!ids || ids->size() == 1) {
-        state_->planes.resize(planes_before);
+    const auto undo = [&] { state_->planes.resize(planes_before); };
+    const Result<std::vector<SectionPart>> section = section_of(*state_, region, *index);
+    if (!section) {
+        undo();
+        return fail(section.error());
     }
+    std::vector<SectionPiece> described;
+    described.reserve(section->size());
+    for (const SectionPart& part : *section) {
+        described.push_back(part.piece);
+    }
+    const std::vector<std::int32_t> pieces = choose(described);
+    Result<std::vector<std::int32_t>> ids =
+        split_region_at(*state_, region, *index, *section, pieces);
+    if (!ids || ids->size() == 1) {
+        undo();
+        return ids;
+    }
+    Step step{Step::Kind::SplitAt, region, plane, {}, *ids};
+    for (const std::int32_t piece : pieces) {
+        step.inside_mm.push_back(described[static_cast<std::size_t>(piece)].inside_mm);
+    }
+    state_->steps.push_back(std::move(step));
     return ids;
 }
 
@@ -160,6 +204,15 @@ void Complex::merge(std::int32_t into, std::int32_t from) {
         face.outside = face.outside == from ? into : face.outside;
     }
     std::erase_if(state_->faces, [](const Face& face) { return face.inside == face.outside; });
+    state_->steps.push_back({Step::Kind::Merge, into, {}, {}, {from}});
+}
+
+const std::vector<Step>& Complex::steps() const { return state_->steps; }
+
+bool Complex::touch(std::int32_t a, std::int32_t b) const {
+    return std::any_of(state_->faces.begin(), state_->faces.end(), [&](const Face& face) {
+        return (face.inside == a && face.outside == b) || (face.inside == b && face.outside == a);
+    });
 }
 
 const std::vector<part::Plane>& Complex::planes() const { return state_->planes; }

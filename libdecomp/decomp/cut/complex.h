@@ -7,6 +7,7 @@
 #include "decomp/part/part.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,20 @@ struct SectionPiece {
     Eigen::Vector3d inside_mm = Eigen::Vector3d::Zero();  ///< a point of it, rounded
     std::int32_t below = -1;  ///< what lies on either side of it, counted as split() by the whole
     std::int32_t above = -1;  ///< plane would return the regions
+};
+
+/// One thing that was done to a complex.
+struct Step {
+    enum class Kind {
+        Split,    ///< by the whole plane
+        SplitAt,  ///< along some pieces of the cross-section
+        Merge,
+    };
+    Kind kind = Kind::Split;
+    std::int32_t region = -1;  ///< that was split; or into which the other was merged
+    part::Plane plane;
+    std::vector<Eigen::Vector3d> inside_mm;  ///< of each piece that was cut along
+    std::vector<std::int32_t> others;        ///< what `region` became; or what was merged into it
 };
 
 /// A volume partitioned by planes: facets that know the region on either side, one shared vertex
@@ -70,6 +85,12 @@ class Complex {
                                                           const part::Plane& plane,
                                                           const std::vector<std::int32_t>& pieces);
 
+    /// The same for the pieces nearest to these points, by SectionPiece::inside_mm: what steps()
+    /// recorded is found again, and a plane that was moved a little meets what it was meant for.
+    [[nodiscard]] Result<std::vector<std::int32_t>> split_near(
+        std::int32_t region, const part::Plane& plane,
+        const std::vector<Eigen::Vector3d>& inside_mm);
+
     /// The plane, moved along its normal by 0, +-1 … +-4 steps: the nearest of these that no vertex
     /// of the region comes closer to than half a step, save those that lie on it exactly; or else
     /// the one that keeps farthest away. Rounded parts then rarely intersect themselves. @param
@@ -80,6 +101,13 @@ class Complex {
     /// Unites regions: every facet between them vanishes. `into` survives, `from` is empty
     /// afterwards.
     void merge(std::int32_t into, std::int32_t from);
+
+    /// Every split that divided a region and every merge since from_volume(), in order. Done again
+    /// on the same volume they give the same complex, ids and all.
+    [[nodiscard]] const std::vector<Step>& steps() const;
+
+    /// Whether a face lies between the two regions.
+    [[nodiscard]] bool touch(std::int32_t a, std::int32_t b) const;
 
     /// The planes that have cut so far; the sources of region() and the planes that errors name
     /// count in them.
@@ -117,6 +145,11 @@ class Complex {
 
     /// Index of a plane in the table, added when it is new.
     [[nodiscard]] static Result<std::int32_t> add_plane(State& state, const part::Plane& plane);
+
+    using Choose = std::function<std::vector<std::int32_t>(const std::vector<SectionPiece>&)>;
+    [[nodiscard]] Result<std::vector<std::int32_t>> split_some(std::int32_t region,
+                                                               const part::Plane& plane,
+                                                               const Choose& choose);
 
     explicit Complex(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;

@@ -219,40 +219,37 @@ Result<std::vector<SectionPart>> section_of(const Cells& cells, std::int32_t reg
 
 Result<std::vector<std::int32_t>> split_region_at(Cells& cells, std::int32_t region,
                                                   std::int32_t plane,
+                                                  const std::vector<SectionPart>& section,
                                                   const std::vector<std::int32_t>& pieces) {
-    const Result<std::vector<SectionPart>> section = section_of(cells, region, plane);
-    if (!section) {
-        return fail(section.error());
-    }
     std::int32_t bodies = 0;
-    for (const SectionPart& part : *section) {
+    for (const SectionPart& part : section) {
         bodies = std::max({bodies, part.piece.below + 1, part.piece.above + 1});
     }
-    std::vector<char> wanted(section->size(), 0);
+    std::vector<char> wanted(section.size(), 0);
     for (const std::int32_t piece : pieces) {
-        if (piece < 0 || static_cast<std::size_t>(piece) >= section->size()) {
+        if (piece < 0 || static_cast<std::size_t>(piece) >= section.size()) {
             return fail("cut.no_such_piece",
-                        "the cross-section has " + std::to_string(section->size()) + " pieces");
+                        "the cross-section has " + std::to_string(section.size()) + " pieces");
         }
         wanted[static_cast<std::size_t>(piece)] = 1;
     }
     Groups groups(bodies);
-    for (std::size_t i = 0; i < section->size(); ++i) {
+    for (std::size_t i = 0; i < section.size(); ++i) {
         if (wanted[i] == 0) {
-            groups.join((*section)[i].piece.below, (*section)[i].piece.above);
+            groups.join(section[i].piece.below, section[i].piece.above);
         }
     }
     std::vector<SectionPart> chosen;
-    for (std::size_t i = 0; i < section->size(); ++i) {
-        const SectionPiece& piece = (*section)[i].piece;
+    for (std::size_t i = 0; i < section.size(); ++i) {
+        const SectionPiece& piece = section[i].piece;
         if (groups.of(piece.below) != groups.of(piece.above)) {
-            chosen.push_back((*section)[i]);
+            chosen.push_back(section[i]);
         }
     }
     if (chosen.empty()) {
         return std::vector<std::int32_t>{region};
     }
-    if (chosen.size() == section->size()) {
+    if (chosen.size() == section.size()) {
         return split_region(cells, region, plane);
     }
     return Splitter(cells, region, plane).run_limited(chosen);

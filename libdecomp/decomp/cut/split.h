@@ -21,8 +21,9 @@ struct SectionPart;
 [[nodiscard]] Result<std::vector<SectionPart>> section_of(const Cells& cells, std::int32_t region,
                                                           std::int32_t plane);
 
-/// Splits a region along some pieces of its cross-section; see Complex::split.
+/// Splits a region along some pieces of its section_of(); see Complex::split.
 [[nodiscard]] Result<std::vector<std::int32_t>> split_region_at(
-    Cells& cells, std::int32_t region, std::int32_t plane, const std::vector<std::int32_t>& pieces);
+    Cells& cells, std::int32_t region, std::int32_t plane, const std::vector<SectionPart>& section,
+    const std::vector<std::int32_t>& pieces);
 
 }  // namespace decomp::cut
