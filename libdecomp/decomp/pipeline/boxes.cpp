@@ -62,6 +62,20 @@ BoxFacts facts_of(const partition::Partition& found) {
     return out;
 }
 
+/// The sheet that a step of the partition cut along.
+std::string decided_by(const cut::Step& step, const sheets::Sheets& sheets) {
+    if (step.kind == cut::Step::Kind::Merge) {
+        return "one box";
+    }
+    for (const sheets::SheetPlane& plane : sheets.planes) {
+        if (plane.plane.normal == step.plane.normal &&
+            plane.plane.offset_mm == step.plane.offset_mm) {
+            return std::string("sheet ") + "xyz"[plane.axis] + " " + std::to_string(plane.level);
+        }
+    }
+    return "beside a sheet";
+}
+
 }  // namespace
 
 Result<Start> start_from_boxes(const mesh::TriMesh& volume, const DecomposeOptions& options,
@@ -85,6 +99,9 @@ Result<Start> start_from_boxes(const mesh::TriMesh& volume, const DecomposeOptio
     }
     Start out(std::move(found->complex));
     out.tier = map.tier;
+    for (const cut::Step& step : out.complex.steps()) {
+        out.by.push_back(decided_by(step, found->sheets));
+    }
     out.keeps_regions = options.keep_boxes;
     out.facts = facts_of(*found);
     for (const partition::BoxPart& part : found->parts) {

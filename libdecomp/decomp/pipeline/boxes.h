@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// Inside the room: the boxes of a polycube as parts to begin with.
 namespace decomp::pipeline {
@@ -23,7 +24,8 @@ struct Start {
     cut::Complex complex;
     std::map<std::int32_t, Hints> hints;  ///< by region
     std::string tier = "T4";
-    bool keeps_regions = false;  ///< regions are not united afterwards
+    std::vector<std::string> by;  ///< who decided each step of the complex
+    bool keeps_regions = false;   ///< regions are not united afterwards
     std::optional<BoxFacts> facts;
 };
 

@@ -5,6 +5,8 @@
 #include "decomp/cut/complex.h"
 #include "decomp/mesh/measure.h"
 #include "decomp/pipeline/boxes.h"
+#include "decomp/pipeline/by_hand.h"
+#include "decomp/pipeline/finish.h"
 #include "decomp/pipeline/nudge.h"
 #include "decomp/pipeline/plan.h"
 #include "decomp/pipeline/settle.h"
@@ -20,7 +22,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -29,12 +30,14 @@ namespace decomp::pipeline {
 namespace {
 
 constexpr std::array<double, 4> kNudges{3e-5, 5e-5, 7e-5, 1e-4};  // of the diagonal
-constexpr double kOneLevel = 1e-3;    // of the diagonal: centres this near are level
 constexpr int kSplitTries = 4;        // positions of one plane tried where a split is refused
 constexpr int kPlannedDepth = 24;     // deeper regions are only bisected
 constexpr double kSamePlane = 1e-9;   // of the diagonal: offsets of one plane
 constexpr double kSameVolume = 0.05;  // relative: a planned piece and the region that it became
 constexpr double kSameCentre = 0.03;  // of the diagonal
+
+constexpr std::array<std::pair<const char*, Mode>, 3> kModes{
+    {{"sheets", Mode::Sheets}, {"paper", Mode::Paper}, {"sections", Mode::Sections}}};
 
 /// A region to look at, and the plan for it if one was made.
 struct Pending {
@@ -99,6 +102,7 @@ class Decomposer {
         }
         const bool merge = options_.merge && !start.keeps_regions;
         const int merges = merge ? unite_neighbours(complex, finished_, judge_, run_) : 0;
+        start.by.resize(complex.steps().size(), "united");
         if (run_.cancelled()) {
             return cancelled();
         }
@@ -122,7 +126,7 @@ class Decomposer {
             }
             const Pending next = pending.front();
             pending.pop_front();
-            Status looked = look_at(complex, next, step_mm, pending);
+            Status looked = look_at(start, next, step_mm, pending);
             if (!looked) {
                 return looked;
             }
@@ -140,8 +144,9 @@ class Decomposer {
         return {};
     }
 
-    Status look_at(cut::Complex& complex, const Pending& next, double step_mm,
+    Status look_at(Start& start, const Pending& next, double step_mm,
                    std::deque<Pending>& pending) {
+        cut::Complex& complex = start.complex;
         part::Part part = complex.region(next.region);
         part::Verdict verdict = judge_(part, part::Fidelity::Exact);
         if (verdict.ok()) {
@@ -165,6 +170,8 @@ class Decomposer {
             }
             const Result<bool> divided = divide(complex, next, part, *choice, step_mm, pending);
             if (divided && *divided) {
+                start.by.resize(complex.steps().size(),
+                                choice == &bisection ? "bisected" : "too large");
                 return {};
             }
             if (!divided) {
@@ -250,50 +257,28 @@ class Decomposer {
         return &strays_.back();
     }
 
-    /// Bottom up, then left to right, then front to back: how a person would number the parts.
-    [[nodiscard]] std::vector<std::int32_t> reading_order() const {
-        std::vector<std::pair<std::array<double, 3>, std::int32_t>> keys;
-        for (const Finished& one : finished_) {
-            const Eigen::Vector3d c = mesh::bounds(one.part.mesh).center();
-            const auto level = [&](double value) {
-                return std::round(value / (kOneLevel * whole_.diagonal_mm));
-            };
-            keys.push_back({{level(c.z()), level(c.x()), level(c.y())}, one.region});
-        }
-        std::sort(keys.begin(), keys.end());
-        std::vector<std::int32_t> order;
-        order.reserve(keys.size());
-        for (const auto& key : keys) {
-            order.push_back(key.second);
-        }
-        return order;
-    }
-
     Result<Decomposition> written(const Start& start, int merges) {
-        Result<part::Assembly> assembly = start.complex.assemble(reading_order(), run_);
-        if (!assembly) {
-            return fail(assembly.error());
+        const std::vector<std::int32_t> order =
+            reading_order(start.complex, whole_.diagonal_mm, run_);
+        Result<Decomposition> out = as_parts(start.complex, order, judge_, run_);
+        if (!out) {
+            return out;
         }
-        Decomposition out;
-        out.assembly = std::move(*assembly);
-        out.tier = start.tier;
-        out.boxes = start.facts;
-        for (const part::Part& part : out.assembly.parts) {
-            out.verdicts.push_back(judge_(part, part::Fidelity::Exact));
-            out.poses.push_back(out.verdicts.back().best_pose);
-            if (!out.verdicts.back().ok()) {
+        for (std::size_t i = 0; i < out->verdicts.size(); ++i) {
+            if (!out->verdicts[i].ok()) {
                 return fail("decompose.no_progress", "a part is too large once it is rounded",
-                            part.id);
+                            out->assembly.parts[i].id);
             }
         }
-        std::set<std::int32_t> planes;
-        for (const part::Interface& interface : out.assembly.interfaces) {
-            planes.insert(interface.plane);
+        out->tier = start.tier;
+        out->boxes = start.facts;
+        out->plan.steps = plan::steps_of(start.complex, start.by);
+        for (const std::int32_t region : order) {
+            out->regions.push_back(plan::region_name(region));
         }
-        out.cuts = static_cast<int>(planes.size());
         if (merges > 0) {
-            out.notes.push_back(std::to_string(merges) + (merges == 1 ? " pair" : " pairs") +
-                                " of neighbours united after cutting");
+            out->notes.push_back(std::to_string(merges) + (merges == 1 ? " pair" : " pairs") +
+                                 " of neighbours united after cutting");
         }
         run_.progress("decompose", 1);
         return out;
@@ -345,9 +330,7 @@ bool content_with_all(const cut::Complex& complex, const part::Judge& judge) {
 }  // namespace
 
 Result<Mode> mode_named(std::string_view name) {
-    for (const auto& [known, mode] :
-         {std::pair("sheets", Mode::Sheets), std::pair("paper", Mode::Paper),
-          std::pair("sections", Mode::Sections)}) {
+    for (const auto& [known, mode] : kModes) {
         if (name == known) {
             return mode;
         }
@@ -356,9 +339,11 @@ Result<Mode> mode_named(std::string_view name) {
                 "use sheets, paper or sections");
 }
 
-Result<Decomposition> decompose(const mesh::TriMesh& volume, const DecomposeOptions& options,
+namespace {
+
+/// Searched for, without plan and edits.
+Result<Decomposition> automatic(const mesh::TriMesh& volume, const DecomposeOptions& options,
                                 const part::Judge& judge, Run& run) {
-    run.progress("decompose", 0);
     const Result<cut::Complex> complex = cut::Complex::from_volume(volume);
     if (!complex) {
         return fail(complex.error());
@@ -404,6 +389,45 @@ Result<Decomposition> decompose(const mesh::TriMesh& volume, const DecomposeOpti
                     std::to_string(boxes->assembly.parts.size())
               : "cross-sections were used: " + boxes.error().message);
     return sections;
+}
+
+plan::Origin origin_of(const Decomposition& found, const DecomposeOptions& options,
+                       const Run& run) {
+    plan::Origin out;
+    for (const auto& [name, mode] : kModes) {
+        out.mode = mode == options.mode ? name : out.mode;
+    }
+    out.sweep = options.global_sweep ? "global" : "local";
+    out.boxes = options.keep_boxes;
+    out.polycube = !options.map ? "none" : options.map->tier == "imported" ? "given" : "made";
+    out.tier = found.tier;
+    out.seed = run.seed;
+    out.notes = found.notes;
+    return out;
+}
+
+}  // namespace
+
+Result<Decomposition> decompose(const mesh::TriMesh& volume, const DecomposeOptions& options,
+                                const part::Judge& judge, Run& run) {
+    run.progress("decompose", 0);
+    if (options.plan) {
+        return by_hand(volume, *options.plan, options, judge, run);
+    }
+    Result<Decomposition> out = automatic(volume, options, judge, run);
+    if (!out) {
+        return out;
+    }
+    out->plan.shape_sha256 = plan::shape_sha256(volume);
+    out->plan.origin = origin_of(*out, options, run);
+    if (options.edits.empty()) {
+        return out;
+    }
+    Result<Decomposition> edited = by_hand(volume, out->plan, options, judge, run);
+    if (edited) {
+        edited->boxes = out->boxes;
+    }
+    return edited;
 }
 
 }  // namespace decomp::pipeline

@@ -8,6 +8,8 @@
 #include "decomp/part/judge.h"
 #include "decomp/part/part.h"
 #include "decomp/part/plane.h"
+#include "decomp/plan/edit.h"
+#include "decomp/plan/plan.h"
 #include "decomp/tets/tet_mesh.h"
 
 #include <Eigen/Core>
@@ -53,6 +55,8 @@ struct DecomposeOptions {
                                 ///< would take several as one
     std::shared_ptr<const PolycubeMap> map;  ///< null: the cuts come from the cross-sections
     double most_mislabeled = 0.1;            ///< share of the map's votes; a worse map is not used
+    std::shared_ptr<const plan::Plan> plan;  ///< carried out instead of searching; else null
+    std::vector<plan::Edit> edits;           ///< made afterwards, in this order
 };
 
 /// A plane that the polycube proposed, and how far the sheets mapped to it lie from it.
@@ -92,6 +96,8 @@ struct Decomposition {
     int cuts = 0;                         ///< planes used
     std::optional<BoxFacts> boxes;        ///< when there was a polycube
     std::vector<std::string> notes;       ///< what a reader of the report should know
+    plan::Plan plan;  ///< carried out on the same volume it gives the same assembly, bit for bit
+    std::vector<std::string> regions;  ///< of the plan, one for each part
 };
 
 /// Cuts a volume until the judge is content with every part, then unites neighbours where it stays
@@ -99,12 +105,13 @@ struct Decomposition {
 /// that of the cross-sections, and the one with fewer parts is taken (or the one with less
 /// interface and support), unless the boxes are to be kept. A volume that already is fine comes
 /// back as one part for each of its bodies. Works for every closed volume; the parts are an exact
-/// partition.
+/// partition. With a plan nothing is searched: it is carried out as it is. Edits by hand follow;
+/// the judge must be content with what they leave.
 /// @param volume  closed, manifold, outward, free of self-intersection (see repair)
 /// @param judge   must become content with small enough pieces
 /// @error decompose.too_many_parts  the judge was not content with max_parts parts
 /// @error decompose.no_progress     a region cannot be cut any further
-/// @error any error of cut::Complex
+/// @error any error of cut::Complex, of by_hand()
 [[nodiscard]] Result<Decomposition> decompose(const mesh::TriMesh& volume,
                                               const DecomposeOptions& options,
                                               const part::Judge& judge, Run& run);
