@@ -3,10 +3,12 @@
 
 #include "cam/job/report.h"
 #include "decomp/base/number.h"
+#include "decomp/plan/edit.h"
 #include "tools/exit_code.h"
 #include "tools/values.h"
 
 #include <algorithm>
+#include <map>
 
 namespace tools {
 
@@ -174,6 +176,45 @@ void add_step_options(CLI::App& app, cam::job::StepWish& wish) {
         ->group("STEP");
 }
 
+void add_hand_options(CLI::App& app, cam::job::JobOptions& options) {
+    const auto add = [&app](const std::string& verb, const std::string& type,
+                            const std::string& description) {
+        const auto check = [verb](const std::string& value) {
+            const auto edit = decomp::plan::parse_edit(verb + " " + value);
+            return edit ? std::string() : edit.error().message + "; " + edit.error().hint;
+        };
+        app.add_option("--" + verb)
+            ->description(description)
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+            ->allow_extra_args(false)
+            ->check(CLI::Validator(check, ""))
+            ->type_name(type)
+            ->group("By hand, in the order given; names of parts are those without these options");
+    };
+    add("split", "PART:AXIS=SHARE",
+        "cut a part where a share of its extent lies below, e.g. P03:z=0.5; along the axes of the "
+        "polycube if the parts come from one, else of the model. Its pieces are P03.1, P03.2");
+    add("merge", "PART+PART",
+        "make one part of neighbours, e.g. P02+P05; it keeps the first one's name");
+    add("plane", "\"NX NY NZ D\"",
+        "cut every part that a plane meets: its normal, and its distance from the origin along it "
+        "in mm, in the model frame");
+    app.add_option("--plan", options.plan,
+                   "cut as a plan.toml says, that of an earlier job or a changed one")
+        ->group("Parts");
+}
+
+void take_edits(const CLI::App& app, cam::job::JobOptions& options) {
+    std::map<const CLI::Option*, std::size_t> taken;
+    for (const CLI::Option* option : app.parse_order()) {
+        const std::string name = option->get_name().substr(2);
+        if (name == "split" || name == "merge" || name == "plane") {
+            options.edits.push_back(name + " " + option->results().at(taken[option]++));
+        }
+    }
+}
+
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required) {
     app.add_option("--machine", machine, "profile: a name from 'hew machines', or a .toml file")
@@ -226,12 +267,16 @@ Action declare_job(CLI::App& app, const Common& /*common*/, cam::job::Extent ext
     add_size(app, "--max-size", request.options.max_size_mm,
              "largest part as it stands: 100x100x80mm; smaller than the chamber")
         ->group("Parts");
+    add_hand_options(app, request.options);
     app.add_flag("--dry-run", command->dry_run, "say what would be done, write nothing")
         ->group("General");
     app.add_flag("--force", request.force,
                  "write into a directory that holds other things, or another model's job")
         ->group("General");
-    return [command](const decomp::Run& run) { return run_job(*command, run); };
+    return [command, &app](const decomp::Run& run) {
+        take_edits(app, command->request.options);
+        return run_job(*command, run);
+    };
 }
 
 Json job_summary(const cam::job::JobFile& job) {

@@ -20,6 +20,13 @@ void add_solid_options(CLI::App& app, std::string& body, std::optional<double>& 
 /// Declares --step, --step-tol, --step-schema and --step-many.
 void add_step_options(CLI::App& app, cam::job::StepWish& wish);
 
+/// Declares --plan, --split, --merge and --plane. The edits stand in the options once
+/// take_edits() has been called after parsing.
+void add_hand_options(CLI::App& app, cam::job::JobOptions& options);
+
+/// The edits of the command line in the order in which they stand there.
+void take_edits(const CLI::App& app, cam::job::JobOptions& options);
+
 /// Declares --machine, --material and --set.
 void add_machine_options(CLI::App& app, std::string& machine, std::string& material,
                          std::vector<std::string>& settings, bool required);

@@ -18,7 +18,9 @@ constexpr Verb kVerbs[] = {
     {"decompose", "From a shape to programs",
      "cut a shape into parts that fit the machine, and stop there",
      "  hew decompose statue.stl --machine prusa-mk3s --height 60cm -o out/\n"
-     "  hew make statue.stl --machine prusa-mk3s --height 60cm -o out/  continues from there",
+     "  hew make statue.stl --machine prusa-mk3s --height 60cm -o out/  continues from there\n"
+     "  hew decompose statue.stl --machine prusa-mk3s -o mine/ --split P03:z=0.5 --merge P01+P02\n"
+     "  hew decompose statue.stl --machine prusa-mk3s -o mine/ --plan out/plan.toml",
      declare_decompose},
     {"export", "From a shape to programs",
      "write the parts of a job as STEP solids, for other programs",

@@ -49,6 +49,8 @@ Json options_json(const JobOptions& options) {
         json["polycube"].push_back(std::filesystem::path(file).filename().string());
     }
     json["max_size_mm"] = options.max_size_mm ? numbers(*options.max_size_mm) : Json(nullptr);
+    json["plan"] = std::filesystem::path(options.plan).filename().string();
+    json["edits"] = options.edits;
     json["settings"] = options.settings;
     if (options.step.wanted) {
         json["step"] = {
@@ -88,6 +90,8 @@ JobOptions read_options(const Json& job) {
     if (json.contains("max_size_mm") && !json.at("max_size_mm").is_null()) {
         options.max_size_mm = vector3(json.at("max_size_mm"));
     }
+    options.plan = json.value("plan", options.plan);
+    options.edits = json.value("edits", options.edits);
     options.settings = json.at("settings").get<std::vector<std::string>>();
     if (json.contains("step")) {
         const Json& step = json.at("step");

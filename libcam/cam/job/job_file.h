@@ -51,6 +51,8 @@ struct JobOptions {
     bool boxes = false;                 ///< every box of the polycube stays a part
     std::vector<std::string> polycube;  ///< files of shape and polycube, tets; empty: made here
     std::optional<Eigen::Vector3d> max_size_mm;  ///< of a part as it stands, besides the chamber
+    std::string plan;                ///< file of a plan, carried out instead of searching; or empty
+    std::vector<std::string> edits;  ///< by hand, in order: decomp::plan::parse_edit()
     StepWish step;
 
     bool operator==(const JobOptions&) const = default;

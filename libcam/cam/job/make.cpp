@@ -9,9 +9,11 @@
 #include "decomp/io/orient.h"
 #include "decomp/io/read_mesh.h"
 #include "decomp/mesh/measure.h"
+#include "decomp/plan/plan_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace cam::job {
@@ -23,6 +25,8 @@ using decomp::Run;
 using decomp::Status;
 
 namespace {
+
+constexpr const char* kPlanFile = "plan.toml";
 
 /// Nothing but what a killed run may have left.
 bool holds_nothing(const fs::path& directory) {
@@ -55,7 +59,57 @@ struct Start {
     JobFile job;
     profile::FdmSetup setup;
     std::string model_bytes;
+    ByHand by_hand;
 };
+
+/// The plan that the job of this directory wrote has been changed since.
+bool plan_changed(const fs::path& directory, const JobFile& job) {
+    const StageRecord* stage = job.stage("parts");
+    const auto bytes = decomp::read_file(directory / kPlanFile);
+    return stage != nullptr && bytes &&
+           std::any_of(stage->outputs.begin(), stage->outputs.end(), [&](const OutputFile& file) {
+               return file.path == kPlanFile && file.sha256 != decomp::sha256_hex(*bytes);
+           });
+}
+
+/// Plan and edits of the options. @error job.plan_changed, job.plan_in_job, those of plan
+Result<ByHand> by_hand_of(const MakeRequest& request, const JobFile& earlier) {
+    const JobOptions& options = request.options;
+    ByHand out;
+    for (const std::string& text : options.edits) {
+        auto edit = decomp::plan::parse_edit(text);
+        if (!edit) {
+            return fail(edit.error());
+        }
+        out.edits.push_back(std::move(*edit));
+    }
+    if (options.plan.empty()) {
+        if (!request.force && plan_changed(request.directory, earlier)) {
+            return fail("job.plan_changed", "plan.toml was changed, and would be written anew",
+                        (request.directory / kPlanFile).string(),
+                        "carry it out with --plan " + (request.directory / kPlanFile).string() +
+                            ", or add --force to lose the changes");
+        }
+        return out;
+    }
+    std::error_code ignored;
+    if (!out.edits.empty() &&
+        fs::equivalent(options.plan, request.directory / kPlanFile, ignored)) {
+        return fail("job.plan_in_job",
+                    "the edits would be made again with every run, for they go into this plan",
+                    options.plan, "copy the plan to another place, or choose another directory");
+    }
+    const auto text = decomp::read_file(options.plan);
+    if (!text) {
+        return fail(text.error());
+    }
+    auto plan = decomp::plan::parse_plan(*text, options.plan);
+    if (!plan) {
+        return fail(plan.error());
+    }
+    out.plan = std::make_shared<const decomp::plan::Plan>(std::move(*plan));
+    return out;
+}
 
 Result<Start> start_of(const MakeRequest& request) {
     auto job = earlier_job(request);
@@ -82,6 +136,10 @@ Result<Start> start_of(const MakeRequest& request) {
                     request.directory.string(),
                     "choose another directory, or add --force to replace that job");
     }
+    auto by_hand = by_hand_of(request, *job);
+    if (!by_hand) {
+        return fail(by_hand.error());
+    }
     job->version = HEW_VERSION;
     job->input = input;
     // STEP files that 'hew export' once wrote are kept up to date.
@@ -92,7 +150,7 @@ Result<Start> start_of(const MakeRequest& request) {
     }
     job->options.material = setup->material.name;
     job->profile_sha256 = setup->hash;
-    return Start{std::move(*job), std::move(*setup), std::move(*bytes)};
+    return Start{std::move(*job), std::move(*setup), std::move(*bytes), std::move(*by_hand)};
 }
 
 /// Makes the directory and puts a manifest there before anything else: whatever happens next, it is
@@ -126,7 +184,8 @@ Result<MakeResult> make(const MakeRequest& request, Run& run) {
     }
     remove_leftovers(request.directory);
     MakeResult result{std::move(start->job), {}};
-    Maker maker(request, std::move(start->setup), std::move(start->model_bytes), result.job, run);
+    Maker maker(request, std::move(start->setup), std::move(start->model_bytes),
+                std::move(start->by_hand), result.job, run);
     const Status made = maker.make_all();
     if (!made) {
         return fail(made.error());
@@ -164,8 +223,8 @@ Result<MakePlan> plan_make(const MakeRequest& request, Run& run) {
     plan.input = start->job.input;
     plan.options = start->job.options;
     plan.profile_sha256 = start->job.profile_sha256;
-    const Maker maker(request, std::move(start->setup), std::move(start->model_bytes), start->job,
-                      run);
+    const Maker maker(request, std::move(start->setup), std::move(start->model_bytes),
+                      std::move(start->by_hand), start->job, run);
     plan.kept = maker.kept_stages(plan.complete);
     return plan;
 }

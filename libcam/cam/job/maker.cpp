@@ -7,6 +7,7 @@
 #include "decomp/base/file.h"
 #include "decomp/base/hash.h"
 #include "decomp/base/number.h"
+#include "decomp/plan/plan_file.h"
 
 #include <utility>
 
@@ -35,10 +36,11 @@ StageRunner::Body with_run(auto body) {
 }  // namespace
 
 Maker::Maker(const MakeRequest& request, profile::FdmSetup setup, std::string model_bytes,
-             JobFile& job, Run run)
+             ByHand by_hand, JobFile& job, Run run)
     : request_(request),
       setup_(std::move(setup)),
       model_bytes_(std::move(model_bytes)),
+      by_hand_(std::move(by_hand)),
       job_(job),
       run_(std::move(run)),
       stages_(request.directory, job, run_) {
@@ -74,6 +76,13 @@ StageKey Maker::parts_key() const {
         .add("seed", std::to_string(job_.options.seed));
     for (const std::string& hash : polycube_hashes_) {
         key.add("polycube", hash);
+    }
+    // What the plan says, however its file is laid out.
+    if (by_hand_.plan) {
+        key.add("plan", decomp::plan::plan_toml(*by_hand_.plan));
+    }
+    for (const std::string& edit : job_.options.edits) {
+        key.add("edit", edit);
     }
     // Not the whole profile: another material or infill leaves the parts as they are.
     for (const double value : orient::judged_values(judged_machine())) {

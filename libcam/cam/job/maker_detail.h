@@ -7,6 +7,8 @@
 #include "cam/profile/read_profile.h"
 #include "decomp/part/part.h"
 #include "decomp/pipeline/decompose.h"
+#include "decomp/plan/edit.h"
+#include "decomp/plan/plan.h"
 
 #include <memory>
 #include <string>
@@ -14,13 +16,19 @@
 
 namespace cam::job {
 
+/// How a person wants the shape cut, as read from the options.
+struct ByHand {
+    std::shared_ptr<const decomp::plan::Plan> plan;  ///< null: search
+    std::vector<decomp::plan::Edit> edits;
+};
+
 /// The stages of one run, each a key (what it reads) and a body (what it makes). Every body reads
 /// what earlier stages wrote, never what they held in memory: a resumed run and a clean one take
 /// the same path.
 class Maker {
   public:
     Maker(const MakeRequest& request, profile::FdmSetup setup, std::string model_bytes,
-          JobFile& job, decomp::Run run);
+          ByHand by_hand, JobFile& job, decomp::Run run);
 
     /// Runs all stages of the extent and finishes the job.
     [[nodiscard]] decomp::Status make_all();
@@ -47,8 +55,12 @@ class Maker {
     /// The machine as the judge sees it: its chamber is no larger than the job wants its parts.
     [[nodiscard]] profile::FdmMachine judged_machine() const;
 
+    /// Whether a polycube is to be made from the model.
+    [[nodiscard]] bool makes_polycube() const;
+
     /// The polycube that the job names; made from the model when it wants boxes or the paper's way
-    /// without naming one; else null. @error those of io, tets and polycube; job.polycube
+    /// without naming one, or when a plan was made so and parts are to be split in it; else null.
+    /// @error those of io, tets and polycube; job.polycube
     [[nodiscard]] decomp::Result<std::shared_ptr<const decomp::pipeline::PolycubeMap>> map_for(
         const decomp::mesh::TriMesh& model, decomp::Run& run) const;
 
@@ -68,6 +80,7 @@ class Maker {
     const MakeRequest& request_;
     profile::FdmSetup setup_;
     std::string model_bytes_;
+    ByHand by_hand_;
     std::vector<std::string> polycube_hashes_;
     JobFile& job_;
     decomp::Run run_;
@@ -76,7 +89,7 @@ class Maker {
 
 /// Raised with every change of what a program looks like, so that older jobs are made anew.
 inline constexpr int kModelRevision = 1;
-inline constexpr int kPartsRevision = 2;
+inline constexpr int kPartsRevision = 3;
 inline constexpr int kArrangeRevision = 1;
 inline constexpr int kProgramRevision = 1;
 inline constexpr int kPicturesRevision = 1;

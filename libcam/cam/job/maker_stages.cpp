@@ -17,6 +17,7 @@
 #include "decomp/io/write_mesh.h"
 #include "decomp/mesh/measure.h"
 #include "decomp/pipeline/decompose.h"
+#include "decomp/plan/plan_file.h"
 #include "decomp/repair/repair.h"
 
 #include <algorithm>
@@ -213,6 +214,8 @@ Maker::Files Maker::make_parts(Run& run) {
         return fail(map.error());
     }
     options->map = *map;
+    options->plan = by_hand_.plan;
+    options->edits = by_hand_.edits;
     profile::FdmSetup judged = setup_;
     judged.machine = judged_machine();
     auto decomposed = decomp::pipeline::decompose(*model, *options, orient::fdm_judge(judged), run);
@@ -243,6 +246,7 @@ Maker::Files Maker::make_parts(Run& run) {
         files.push_back({"parts/" + part.id + ".stl", stl_of(printed, part.id, run)});
         job_.parts.push_back(std::move(facts));
     }
+    files.push_back({"plan.toml", decomp::plan::plan_toml(decomposed->plan, decomposed->regions)});
     return files;
 }
 

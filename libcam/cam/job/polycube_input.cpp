@@ -57,11 +57,26 @@ Result<Map> made_map(const decomp::mesh::TriMesh& model, decomp::Run& run) {
 
 }  // namespace
 
+bool Maker::makes_polycube() const {
+    if (!job_.options.polycube.empty()) {
+        return false;
+    }
+    if (by_hand_.plan) {
+        const auto& origin = by_hand_.plan->origin;
+        return origin.polycube == "made" && origin.tier != "T4" &&
+               std::any_of(by_hand_.edits.begin(), by_hand_.edits.end(), [](const auto& edit) {
+                   return edit.kind == decomp::plan::Edit::Kind::Split;
+               });
+    }
+    return job_.options.mode != "sections" && (job_.options.boxes || job_.options.mode == "paper");
+}
+
 Result<Map> Maker::map_for(const decomp::mesh::TriMesh& model, decomp::Run& run) const {
     const std::vector<std::string>& files = job_.options.polycube;
-    if (files.empty() && job_.options.mode != "sections" &&
-        (job_.options.boxes || job_.options.mode == "paper")) {
-        return made_map(model, run);
+    if (makes_polycube()) {
+        decomp::Run seeded = run;
+        seeded.seed = by_hand_.plan ? by_hand_.plan->origin.seed : run.seed;
+        return made_map(model, seeded);
     }
     if (files.empty()) {
         return Map();

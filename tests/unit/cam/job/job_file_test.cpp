@@ -17,6 +17,8 @@ JobFile sample_job() {
     job.options.machine = "prusa-mk3s";
     job.options.settings = {"process.layer_height_mm=0.15"};
     job.options.height_mm = 245.1;
+    job.options.plan = "plan.toml";
+    job.options.edits = {"split P03:z=0.5", "plane 0 0 1 50"};
     job.profile_sha256 = std::string(64, 'b');
     job.finished = true;
     job.model.model_from_file[0] = 0.1;
