@@ -200,7 +200,7 @@ class Hands {
         }
         int divided = 0;
         for (const std::string& part : names) {
-            const Status done = cut(part, plane, edit);
+            Status done = cut(part, plane, edit);
             if (!done && done.error().code != "plan.cut_misses") {
                 return done;
             }
