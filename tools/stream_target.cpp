@@ -2,8 +2,10 @@
 #include "tools/stream_target.h"
 
 #include "cam/job/lone_part.h"
+#include "cam/millproof/record.h"
 #include "cam/profile/read_mill.h"
 #include "cam/transport/ports.h"
+#include "decomp/base/file.h"
 
 #include <algorithm>
 
@@ -83,6 +85,13 @@ Result<std::string> chosen_port(const std::string& wish, const cam::profile::Lin
     return fail(error);
 }
 
+/// The tools of a milling program as its proof names them; without one those of its machine.
+std::vector<std::string> tools_of(const fs::path& program) {
+    const auto text = decomp::read_file(program.string() + ".proof.json");
+    const auto record = text ? cam::millproof::read_proof_json(*text) : fail(text.error());
+    return record ? record->tools : std::vector<std::string>{};
+}
+
 /// The program of a job directory, its machine and profile.
 Result<Request> from_job(const StreamTarget& target) {
     const auto job = cam::job::read_finished_job(target.job);
@@ -118,7 +127,8 @@ Result<Request> from_program(const StreamTarget& target, const cam::profile::Lin
     request.program = target.job;
     request.machine = target.machine;
     if (is_mill(target.machine)) {
-        const auto setup = cam::profile::read_mill_setup(target.machine, {}, target.settings);
+        const auto setup =
+            cam::profile::read_mill_setup(target.machine, tools_of(target.job), target.settings);
         if (!setup) {
             return fail(setup.error());
         }

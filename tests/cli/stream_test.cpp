@@ -267,6 +267,27 @@ TEST(Stream, AMillThatKeptItsPowerGoesOnWithTheLineOnWhichItStands) {
               again);
 }
 
+TEST(Stream, AProvedMillingProgramRunsAndAChangedOneIsRefused) {
+    const tests::TempDir folder;
+    const std::string model = tests::write_stl(folder, "plate.stl", tests::block(12, 10, 4));
+    const std::string program = (folder / "p.nc").string();
+    const auto milled = hew({"mill", model, "--machine", "genmitsu-3018", "--tools",
+                             "flat-6,ball-3", "--scallop", "0.1", "-o", program, "-q"});
+    ASSERT_EQ(milled.exit_code, 0) << milled.out << milled.err;
+    Mill mill(folder / "port");
+    const std::vector<std::string> words = {
+        "stream", program,  "--machine",     "genmitsu-3018", "--link", "virtual-grbl",
+        "--yes",  "--port", folder / "port", "--dry-run",     "--json"};
+    const auto judged = hew(words);
+    EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+    std::string text = *decomp::read_file(program);
+    text.insert(text.find("\nG1") + 1, "G1 Z-9\n");
+    ASSERT_TRUE(decomp::write_file(program, text, decomp::Overwrite::Allow));
+    const auto changed = hew(words);
+    EXPECT_NE(changed.exit_code, 0);
+    EXPECT_EQ(tests::object_of(changed)["error"]["code"], "proof.stale") << changed.out;
+}
+
 TEST(Stream, ALockedMillIsHomedAfterAYes) {
     const tests::TempDir folder;
     const std::string program = write_program(folder, {"G21G90", "G0X1Y1Z-1", "G1X5F600"});

@@ -18,6 +18,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PLY and hashes are written as they lie");
 
+constexpr const char* kSchema = "hew.millproof/1";
+constexpr const char* kAgain = "plan and prove it again: hew mill";
+
 template <class T>
 void append(std::string& to, const T& value) {
     char bytes[sizeof(T)];
@@ -86,13 +89,17 @@ std::string proof_json(const MillProof& proof, std::string_view program, const M
     using nlohmann::ordered_json;
     const Figures& f = proof.figures;
     ordered_json out;
-    out["schema"] = "hew.millproof/1";
+    out["schema"] = kSchema;
     out["checker"] = kMillCheckerVersion;
     out["passed"] = proof.passed();
     out["program_sha256"] = decomp::sha256_hex(program);
     out["part_sha256"] = hash_of(*job.part);
     out["profile_sha256"] = profile_sha256;
     out["dialect"] = job.dialect.name;
+    out["tools"] = ordered_json::array();
+    for (const ProofTool& tool : job.tools) {
+        out["tools"].push_back(tool.tool.name);
+    }
     out["options"] = {{"cell_mm", options.cell_mm},
                       {"sample_mm", options.sample_mm},
                       {"max_gouge_mm", options.max_gouge_mm},
@@ -113,6 +120,55 @@ std::string proof_json(const MillProof& proof, std::string_view program, const M
         out["faults"].push_back({{"kind", fault.kind}, {"line", fault.line}, {"what", fault.what}});
     }
     return out.dump(1) + "\n";
+}
+
+bool is_mill_record(std::string_view text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    return json.is_object() && json.contains("schema") && json["schema"] == kSchema;
+}
+
+decomp::Result<MillRecord> read_proof_json(std::string_view text) {
+    try {
+        const auto json = nlohmann::json::parse(text);
+        if (json.at("schema").get<std::string>() != kSchema) {
+            return decomp::fail("proof.bad_sidecar", "the schema is not " + std::string(kSchema),
+                                "schema", kAgain);
+        }
+        MillRecord record;
+        json.at("checker").get_to(record.checker);
+        json.at("passed").get_to(record.passed);
+        json.at("program_sha256").get_to(record.program_sha256);
+        json.at("profile_sha256").get_to(record.profile_sha256);
+        json.at("tools").get_to(record.tools);
+        record.faults = json.at("faults").size();
+        if (record.passed != (record.faults == 0)) {
+            return decomp::fail("proof.bad_sidecar", "\"passed\" contradicts the faults", "passed",
+                                kAgain);
+        }
+        return record;
+    } catch (const nlohmann::json::exception& exception) {
+        return decomp::fail("proof.bad_sidecar", exception.what(), {}, kAgain);
+    }
+}
+
+decomp::Status accept(const MillRecord& record, std::string_view program,
+                      std::string_view profile_sha256) {
+    if (record.program_sha256 != decomp::sha256_hex(program)) {
+        return decomp::fail("proof.stale", "the program is not the one that was proved", {},
+                            kAgain);
+    }
+    if (record.profile_sha256 != profile_sha256) {
+        return decomp::fail("proof.stale", "machine or tools are not those of the proof", {},
+                            kAgain);
+    }
+    if (record.checker != kMillCheckerVersion) {
+        return decomp::fail("proof.stale", "the proof is of another checker", {}, kAgain);
+    }
+    if (!record.passed) {
+        return decomp::fail("proof.failed",
+                            std::to_string(record.faults) + " fault(s) in the program");
+    }
+    return {};
 }
 
 DeviationMesh deviation_mesh(const StockMap& stock, const MillJob& job, double range_mm, int step) {

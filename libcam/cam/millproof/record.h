@@ -4,6 +4,7 @@
 #include "cam/millproof/prove.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,6 +21,27 @@ inline constexpr int kMillCheckerVersion = 2;
 [[nodiscard]] std::string proof_json(const MillProof& proof, std::string_view program,
                                      const MillJob& job, const ProofOptions& options,
                                      std::string_view profile_sha256);
+
+/// What a sidecar states, as far as somebody who wants to run the program must know it.
+struct MillRecord {
+    int checker = 0;
+    bool passed = false;
+    std::size_t faults = 0;
+    std::string program_sha256;
+    std::string profile_sha256;
+    std::vector<std::string> tools;  ///< names, in the order of their numbers
+};
+
+/// Whether a sidecar is one of these, and not of a printing program.
+[[nodiscard]] bool is_mill_record(std::string_view text);
+
+/// @error proof.bad_sidecar (no JSON, another schema, a key missing or of the wrong kind)
+[[nodiscard]] decomp::Result<MillRecord> read_proof_json(std::string_view text);
+
+/// Whether the sidecar holds for these bytes and this profile, by this checker, and passed.
+/// @error proof.stale (what differs), proof.failed
+[[nodiscard]] decomp::Status accept(const MillRecord& record, std::string_view program,
+                                    std::string_view profile_sha256);
 
 /// The stock that remains, coloured by what stands on the part or is missing of it.
 struct DeviationMesh {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cam/stream/stream_program.h"
 
+#include "cam/millproof/record.h"
 #include "cam/stream/ask_place.h"
 #include "cam/transport/modbus.h"
 #include "cam/verify/proof_json.h"
@@ -23,6 +24,18 @@ constexpr std::size_t kPlannedByMarlin = 16;  ///< blocks, with the largest of i
 constexpr std::size_t kPlannedByGrbl = 18;
 constexpr std::size_t kLongestForMarlin = 75;  ///< of 96, less number and checksum
 constexpr std::size_t kLongestForGrbl = 79;
+
+/// Whether a sidecar, of printing or of milling, holds for these bytes and this profile.
+Status accept_proof(std::string_view sidecar, std::string_view program,
+                    std::string_view profile_sha256) {
+    if (millproof::is_mill_record(sidecar)) {
+        const auto record = millproof::read_proof_json(sidecar);
+        return record ? millproof::accept(*record, program, profile_sha256)
+                      : Status(fail(record.error()));
+    }
+    const auto record = verify::read_proof_json(sidecar);
+    return record ? verify::accept(*record, program, profile_sha256) : Status(fail(record.error()));
+}
 
 }  // namespace
 
@@ -79,12 +92,7 @@ Status ProgramStream::check_gate() {
             return fail("stream.no_proof", "the program has no proof", sidecar.string(),
                         "'hew verify' it; or --foreign, and only its bounds are looked at");
         }
-        const auto record = verify::read_proof_json(*text);
-        if (!record) {
-            return fail(record.error());
-        }
-        if (Status accepted = verify::accept(*record, program_, request_.profile_sha256);
-            !accepted) {
+        if (Status accepted = accept_proof(*text, program_, request_.profile_sha256); !accepted) {
             return accepted;
         }
         summary_ += "proof holds for these bytes and this profile\n";

@@ -22,6 +22,48 @@ TEST(MillRecord, TheSidecarNamesHashesFiguresAndFaults) {
     EXPECT_NE(json, proof_json(broken, text + "G20\n", job, {}, "abc"));
 }
 
+TEST(MillRecord, ASidecarIsAcceptedForItsBytesProfileAndCheckerAndWhenItPassedAlone) {
+    const auto part = tests::pocket_part();
+    const MillJob job = tests::pocket_job(part);
+    const std::string text = tests::text_of(tests::pocket_program());
+    const std::string json = proof_json(prove(text, job, {}).value(), text, job, {}, "abc");
+    ASSERT_TRUE(is_mill_record(json));
+    const auto record = read_proof_json(json);
+    ASSERT_TRUE(record) << record.error().text();
+    ASSERT_EQ(record->tools.size(), job.tools.size());
+    EXPECT_EQ(record->tools[0], job.tools[0].tool.name);
+    EXPECT_TRUE(accept(*record, text, "abc"));
+    EXPECT_EQ(accept(*record, text + " ", "abc").error().code, "proof.stale");
+    EXPECT_EQ(accept(*record, text, "abd").error().code, "proof.stale");
+    MillRecord older = *record;
+    --older.checker;
+    EXPECT_EQ(accept(older, text, "abc").error().code, "proof.stale");
+    std::string inches = text;
+    inches.replace(inches.find("G21"), 3, "G20");
+    const auto failed =
+        read_proof_json(proof_json(prove(inches, job, {}).value(), inches, job, {}, "abc"));
+    ASSERT_TRUE(failed);
+    EXPECT_EQ(accept(*failed, inches, "abc").error().code, "proof.failed");
+}
+
+TEST(MillRecord, ABrokenSidecarIsAnError) {
+    const auto part = tests::pocket_part();
+    const MillJob job = tests::pocket_job(part);
+    const std::string text = tests::text_of(tests::pocket_program());
+    const std::string json = proof_json(prove(text, job, {}).value(), text, job, {}, "abc");
+    std::string lying = json;
+    lying.replace(lying.find("true"), 4, "false");
+    std::string other = json;
+    other.replace(other.find("millproof"), 9, "proof");
+    for (const std::string& bad : {lying, other, json.substr(0, json.size() / 2), std::string()}) {
+        const auto read = read_proof_json(bad);
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().code, "proof.bad_sidecar");
+    }
+    EXPECT_FALSE(is_mill_record(other));
+    EXPECT_FALSE(is_mill_record(""));
+}
+
 TEST(MillRecord, TheStockIsGreenWhereItIsRightRedWhereItStandsBlueWhereItIsCut) {
     const auto part = tests::pocket_part();
     const MillJob job = tests::pocket_job(part);
