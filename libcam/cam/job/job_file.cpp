@@ -213,7 +213,8 @@ Json decomposition_json(const DecompositionFacts& facts) {
     for (const auto& interface : facts.interfaces) {
         json["interfaces"].push_back({{"plane", interface.plane},
                                       {"parts", {interface.part_a, interface.part_b}},
-                                      {"area_mm2", interface.area_mm2}});
+                                      {"area_mm2", interface.area_mm2},
+                                      {"neck_mm", facts.neck_mm(json["interfaces"].size())}});
     }
     json["notes"] = facts.notes;
     json["polycube"] = facts.polycube ? polycube_json(*facts.polycube) : Json(nullptr);
@@ -230,6 +231,7 @@ DecompositionFacts read_decomposition(const Json& json) {
     for (const Json& interface : json.at("interfaces")) {
         facts.interfaces.push_back({interface.at("plane"), interface.at("parts").at(0),
                                     interface.at("parts").at(1), interface.at("area_mm2")});
+        facts.necks_mm.push_back(interface.value("neck_mm", 0.0));
     }
     facts.notes = json.at("notes").get<std::vector<std::string>>();
     if (json.contains("polycube") && !json.at("polycube").is_null()) {

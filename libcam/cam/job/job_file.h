@@ -94,6 +94,12 @@ struct DecompositionFacts {
     std::vector<decomp::part::Interface> interfaces;
     std::vector<std::string> notes;
     std::optional<decomp::pipeline::BoxFacts> polycube;  ///< when there was one
+    std::vector<double> necks_mm;  ///< of the interfaces; none in jobs of older versions
+
+    /// 0: not known.
+    [[nodiscard]] double neck_mm(std::size_t interface) const {
+        return interface < necks_mm.size() ? necks_mm[interface] : 0;
+    }
 };
 
 /// A part as a STEP solid: step/ID.step.

@@ -89,7 +89,7 @@ class Maker {
 
 /// Raised with every change of what a program looks like, so that older jobs are made anew.
 inline constexpr int kModelRevision = 1;
-inline constexpr int kPartsRevision = 3;
+inline constexpr int kPartsRevision = 4;
 inline constexpr int kArrangeRevision = 1;
 inline constexpr int kProgramRevision = 1;
 inline constexpr int kPicturesRevision = 1;

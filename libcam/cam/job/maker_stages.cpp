@@ -227,7 +227,8 @@ Maker::Files Maker::make_parts(Run& run) {
                           decomposed->assembly.planes,
                           decomposed->assembly.interfaces,
                           decomposed->notes,
-                          decomposed->boxes};
+                          decomposed->boxes,
+                          decomposed->necks_mm};
     for (const std::string& note : decomposed->notes) {
         run.info("decomposition: " + note);
     }

@@ -121,7 +121,8 @@ std::string report_json(const JobFile& job) {
             {{"plane", interface.plane},
              {"parts", Json::array({job.parts.at(static_cast<std::size_t>(interface.part_a)).id,
                                     job.parts.at(static_cast<std::size_t>(interface.part_b)).id})},
-             {"area_mm2", rounded(interface.area_mm2, 3)}});
+             {"area_mm2", rounded(interface.area_mm2, 3)},
+             {"neck_mm", rounded(job.decomposition.neck_mm(json["interfaces"].size()), 3)}});
     }
     json["plates"] = Json::array();
     for (const PlateFacts& plate : job.plates) {

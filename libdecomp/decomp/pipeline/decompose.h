@@ -92,10 +92,12 @@ struct Decomposition {
     std::vector<Pose<PartBedFrame, ModelFrame>>
         poses;                            ///< one for each part: the one in which it was judged
     std::vector<part::Verdict> verdicts;  ///< one for each part; all ok
-    std::string tier;                     ///< of the map; "T4": planes at cross-section events
-    int cuts = 0;                         ///< planes used
-    std::optional<BoxFacts> boxes;        ///< when there was a polycube
-    std::vector<std::string> notes;       ///< what a reader of the report should know
+    std::vector<double> necks_mm;    ///< of the interfaces: the largest circle within the thinnest
+                                     ///< piece of each
+    std::string tier;                ///< of the map; "T4": planes at cross-section events
+    int cuts = 0;                    ///< planes used
+    std::optional<BoxFacts> boxes;   ///< when there was a polycube
+    std::vector<std::string> notes;  ///< what a reader of the report should know
     plan::Plan plan;  ///< carried out on the same volume it gives the same assembly, bit for bit
     std::vector<std::string> regions;  ///< of the plan, one for each part
 };

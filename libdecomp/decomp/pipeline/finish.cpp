@@ -3,6 +3,7 @@
 
 #include "decomp/base/parallel.h"
 #include "decomp/mesh/measure.h"
+#include "decomp/sections/interface_neck.h"
 
 #include <algorithm>
 #include <array>
@@ -55,6 +56,10 @@ Result<Decomposition> as_parts(const cut::Complex& complex, const std::vector<st
         out.verdicts.push_back(judge(part, part::Fidelity::Exact));
         out.poses.push_back(out.verdicts.back().best_pose);
     }
+    out.necks_mm.resize(out.assembly.interfaces.size());
+    for_each_index(run, out.assembly.interfaces.size(), [&](std::size_t i) {
+        out.necks_mm[i] = sections::interface_neck_mm(out.assembly, out.assembly.interfaces[i]);
+    });
     std::set<std::int32_t> planes;
     for (const part::Interface& interface : out.assembly.interfaces) {
         planes.insert(interface.plane);

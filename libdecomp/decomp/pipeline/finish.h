@@ -17,7 +17,8 @@ namespace decomp::pipeline {
 [[nodiscard]] std::vector<std::int32_t> reading_order(const cut::Complex& complex,
                                                       double diagonal_mm, const Run& run);
 
-/// The regions as parts, in this order, with the judge's word on each, which need not be good.
+/// The regions as parts, in this order, with the judge's word on each, which need not be good,
+/// and the necks of their interfaces.
 /// @error those of cut::Complex::assemble()
 [[nodiscard]] Result<Decomposition> as_parts(const cut::Complex& complex,
                                              const std::vector<std::int32_t>& order,

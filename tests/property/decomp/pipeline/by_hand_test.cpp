@@ -195,6 +195,30 @@ TEST(Plan, OfAnotherShapeIsRefused) {
     EXPECT_EQ(other.error().code, "plan.other_shape");
 }
 
+TEST(Numbering, IsTheSameForASlightlyLargerChamber) {
+    // What a part is called does not depend on which region of the complex it was.
+    const auto numbered = [](double chamber) {
+        Work work = by_sections(tests::dumbbell(30, 8, 100, 5, 24), chamber, chamber, chamber);
+        work.options.proxy_triangles = 800;
+        work.options.lookahead = 2;
+        return cut(work);
+    };
+    const auto first = numbered(80);
+    const auto second = numbered(80.8);
+    ASSERT_TRUE(first.has_value());
+    ASSERT_TRUE(second.has_value());
+    ASSERT_EQ(first->assembly.parts.size(), second->assembly.parts.size());
+    const auto centre = [](const Decomposition& found, std::size_t i) {
+        return decomp::mesh::bounds(found.assembly.parts[i].mesh).center().eval();
+    };
+    for (std::size_t i = 0; i < first->assembly.parts.size(); ++i) {
+        for (std::size_t k = 0; k < second->assembly.parts.size(); ++k) {
+            EXPECT_LE((centre(*first, i) - centre(*second, i)).norm(),
+                      (centre(*first, i) - centre(*second, k)).norm());
+        }
+    }
+}
+
 TEST(ByHand, ASplitGivesOnePartMoreAtItsShareOfTheExtent) {
     const Work work = by_sections(tests::box({0, 0, 0}, {40, 40, 100}), 60, 60, 60);
     const auto plain = cut(work);
@@ -206,6 +230,12 @@ TEST(ByHand, ASplitGivesOnePartMoreAtItsShareOfTheExtent) {
     const double whole = volume_mm3(plain->assembly.parts[1].mesh);
     EXPECT_NEAR(volume_mm3(split->assembly.parts[1].mesh) / whole, 0.25, 1e-3);
     EXPECT_EQ(split->notes.back(), "by hand: split P02:x=0.25");
+    // Interfaces of 10 x 40, 30 x 40 and 40 x 50.
+    ASSERT_EQ(split->necks_mm.size(), split->assembly.interfaces.size());
+    for (std::size_t i = 0; i < split->necks_mm.size(); ++i) {
+        EXPECT_GT(split->necks_mm[i], 0.98 * 10);
+        EXPECT_LT(split->necks_mm[i], 1.02 * 40);
+    }
     const auto again = replayed(work, *split);
     ASSERT_TRUE(again.has_value()) << again.error().text();
     expect_same(*split, *again);

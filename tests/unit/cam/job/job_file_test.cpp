@@ -27,6 +27,7 @@ JobFile sample_job() {
     job.decomposition.tier = "T4";
     job.decomposition.planes = {{{0, 0, 1}, 0.1}};
     job.decomposition.interfaces = {{0, 0, 1, 12.5}};
+    job.decomposition.necks_mm = {3.5};
     Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
     map.translation() = Eigen::Vector3d(1.0 / 3, -0.0, 2);
     cam::job::PartFacts part;

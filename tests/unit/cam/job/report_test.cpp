@@ -13,6 +13,7 @@ JobFile two_parts() {
     JobFile job;
     job.input.name = "statue.stl";
     job.decomposition.interfaces = {{0, 0, 1, 100}, {1, 0, 1, 50}};
+    job.decomposition.necks_mm = {8, 5.0004};
     job.parts.resize(2);
     job.parts[0].id = "P01";
     job.parts[1].id = "P02";
@@ -34,6 +35,13 @@ TEST(Report, TotalsAreTheSumsOfThePlates) {
     EXPECT_EQ(json["totals"]["seconds"], 150.0);
     EXPECT_EQ(json["totals"]["filament_g"], 4.0);
     EXPECT_EQ(json["totals"]["passed"], true);
+}
+
+TEST(Report, InterfacesSayHowThicklyPartsHangTogether) {
+    const Json json = Json::parse(cam::job::report_json(two_parts()));
+    EXPECT_EQ(json["interfaces"][0]["neck_mm"], 8.0);
+    EXPECT_EQ(json["interfaces"][1]["neck_mm"], 5.0);
+    EXPECT_EQ(json["interfaces"][1]["area_mm2"], 50.0);
 }
 
 TEST(Report, OneFailedProofFailsTheWhole) {
