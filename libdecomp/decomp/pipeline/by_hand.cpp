@@ -151,6 +151,18 @@ class Hands {
                                     low + edit.share * (high - low));
     }
 
+    /// Names of the parts with a face in common with a region, or "no part".
+    [[nodiscard]] std::string neighbours_of(const std::string& region) const {
+        std::string out;
+        for (const auto& [part, other] : parts_) {
+            if (other != region &&
+                piece_.complex().touch(piece_.region(region), piece_.region(other))) {
+                out += (out.empty() ? "" : ", ") + part;
+            }
+        }
+        return out.empty() ? "no part" : out;
+    }
+
     Status merge(const plan::Edit& edit) {
         plan::Step step;
         step.kind = plan::Step::Kind::Merge;
@@ -167,6 +179,7 @@ class Hands {
             Error error = done.error();
             if (error.code == "plan.not_neighbours") {
                 error.message = "the parts of '" + edit.text + "' do not all touch";
+                error.hint = edit.parts.front() + " touches " + neighbours_of(step.region);
             }
             return fail(std::move(error));
         }

@@ -324,6 +324,13 @@ TEST(ByHand, WhatCannotBeDoneSaysWhy) {
     }
 }
 
+TEST(ByHand, ARefusedMergeSaysWhatThePartTouches) {
+    const Work work = by_sections(tests::box({0, 0, 0}, {40, 40, 160}), 60, 60, 60);
+    const auto done = edited(work, {"merge P01+P03"});
+    ASSERT_FALSE(done.has_value());
+    EXPECT_EQ(done.error().hint, "P01 touches P02");
+}
+
 TEST(ByHand, ASplitInThePolycubeOfAPlanNeedsThePolycube) {
     Work work = by_polycube(Mode::Sheets, false);
     const auto first = cut(work);
