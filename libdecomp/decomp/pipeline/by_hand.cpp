@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -151,6 +152,20 @@ class Hands {
                                     low + edit.share * (high - low));
     }
 
+    /// Where planes of this normal meet something.
+    [[nodiscard]] std::string reach_along(const Eigen::Vector3d& normal) const {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const auto& [part, region] : parts_) {
+            for (const auto& point : piece_.complex().region(piece_.region(region)).mesh.points) {
+                low = std::min(low, normal.dot(point));
+                high = std::max(high, normal.dot(point));
+            }
+        }
+        return "along this normal the shape reaches from " + decimal(low, 3) + " to " +
+               decimal(high, 3) + " mm";
+    }
+
     /// Names of the parts with a face in common with a region, or "no part".
     [[nodiscard]] std::string neighbours_of(const std::string& region) const {
         std::string out;
@@ -221,7 +236,7 @@ class Hands {
         }
         if (divided == 0) {
             return fail("plan.cut_misses", "the plane meets no part", edit.text,
-                        "the extent of the model stands in report.json, mm in the model frame");
+                        reach_along(plane.normal));
         }
         return {};
     }

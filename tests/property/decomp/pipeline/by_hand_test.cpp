@@ -331,6 +331,13 @@ TEST(ByHand, ARefusedMergeSaysWhatThePartTouches) {
     EXPECT_EQ(done.error().hint, "P01 touches P02");
 }
 
+TEST(ByHand, APlaneThatMissesSaysWhereTheShapeIs) {
+    const Work work = by_sections(tests::box({0, 0, -5}, {40, 40, 45}), 60, 60, 60);
+    const auto done = edited(work, {"plane 0 0 -1 6"});
+    ASSERT_FALSE(done.has_value());
+    EXPECT_EQ(done.error().hint, "along this normal the shape reaches from -45 to 5 mm");
+}
+
 TEST(ByHand, ASplitInThePolycubeOfAPlanNeedsThePolycube) {
     Work work = by_polycube(Mode::Sheets, false);
     const auto first = cut(work);
