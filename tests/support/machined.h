@@ -56,6 +56,42 @@ inline TriMesh drilled_plate(double x, double y, double z, double radius, std::u
     return mesh;
 }
 
+/// A plate [0, x] x [0, y] x [0, z] whose upright edges are rounded by `corner` and whose lower
+/// edges by `fillet`, with so many chords to a quarter turn each.
+inline TriMesh rounded_plate(double x, double y, double z, double corner, double fillet,
+                             std::uint32_t around, std::uint32_t down) {
+    TriMesh mesh;
+    const std::uint32_t ring = 4 * (around + 1);
+    const auto add_ring = [&](double inset, double height) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            for (std::uint32_t i = 0; i <= around; ++i) {
+                const double turn = std::numbers::pi / 2 * (k + static_cast<double>(i) / around);
+                mesh.points.emplace_back(
+                    (k == 0 || k == 3 ? x - corner : corner) + (corner - inset) * std::cos(turn),
+                    (k < 2 ? y - corner : corner) + (corner - inset) * std::sin(turn), height);
+            }
+        }
+    };
+    for (std::uint32_t i = 0; i <= down; ++i) {
+        const double turn = std::numbers::pi / 2 * i / down;
+        add_ring(fillet * (1 - std::sin(turn)), fillet * (1 - std::cos(turn)));
+    }
+    add_ring(0, z);
+    mesh.points.emplace_back(x / 2, y / 2, 0);
+    mesh.points.emplace_back(x / 2, y / 2, z);
+    const std::uint32_t top = (down + 1) * ring;
+    for (std::uint32_t i = 0; i < ring; ++i) {
+        const std::uint32_t j = (i + 1) % ring;
+        for (std::uint32_t r = 0; r < top; r += ring) {
+            mesh.triangles.push_back({r + i, r + j, r + ring + j});
+            mesh.triangles.push_back({r + i, r + ring + j, r + ring + i});
+        }
+        mesh.triangles.push_back({top + ring, j, i});
+        mesh.triangles.push_back({top + ring + 1, top + i, top + j});
+    }
+    return mesh;
+}
+
 /// A round bar about Z of `around` chords with flat ends.
 inline TriMesh round_bar(double radius, double length, std::uint32_t around) {
     TriMesh mesh = revolved(length, {{radius, length}, {radius, 0}}, 0, around);

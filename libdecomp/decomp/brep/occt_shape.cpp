@@ -8,6 +8,7 @@
 #include <Geom_Ellipse.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <ShapeFix_Wire.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -63,6 +64,10 @@ Handle(Geom_Surface) surface_of(const solid::Surface& surface, const Eigen::Vect
                                            cylinder->radius_mm);
     }
     // From there and not from the apex, which may be far away.
+    if (const auto* torus = std::get_if<solid::TorusSurface>(&surface)) {
+        return new Geom_ToroidalSurface(place_of(torus->centre, torus->axis, start),
+                                        torus->major_mm, torus->minor_mm);
+    }
     const auto& cone = std::get<solid::ConeSurface>(surface);
     const double height = cone.axis.dot(start - cone.apex);
     return new Geom_ConicalSurface(place_of(cone.apex + height * cone.axis, cone.axis, start),
@@ -78,6 +83,10 @@ Eigen::Vector3d opposite(const solid::Surface& surface, const Eigen::Vector3d& p
     if (const auto* cone = std::get_if<solid::ConeSurface>(&surface)) {
         const Eigen::Vector3d d = p - cone->apex;
         return cone->apex + 2 * cone->axis * cone->axis.dot(d) - d;
+    }
+    if (const auto* torus = std::get_if<solid::TorusSurface>(&surface)) {
+        const Eigen::Vector3d d = p - torus->centre;
+        return torus->centre + 2 * torus->axis * torus->axis.dot(d) - d;
     }
     return p;
 }

@@ -23,6 +23,9 @@ AxisLine axis_of(const Surface& surface) {
     if (const auto* cone = std::get_if<ConeSurface>(&surface)) {
         return {cone->apex, cone->axis};
     }
+    if (const auto* torus = std::get_if<TorusSurface>(&surface)) {
+        return {torus->centre, torus->axis};
+    }
     return {};
 }
 
@@ -36,6 +39,12 @@ namespace {
 
 constexpr double kKernelMm = 1e-7;  ///< what CAD kernels count as one point
 constexpr double kAlike = 3;        ///< ratio of areas
+
+/// About the middle of the tube, from its outermost point.
+double tube_angle(const TorusSurface& torus, const Eigen::Vector3d& p) {
+    const double height = torus.axis.dot(p - torus.centre);
+    return std::atan2(height, (p - torus.centre - height * torus.axis).norm() - torus.major_mm);
+}
 
 /// Walks along the borders of faces on a mesh and makes edges and loops of them.
 class Walker {
@@ -92,9 +101,8 @@ class Walker {
             return r >= 0 && !std::holds_alternative<PlaneSurface>(
                                  regions_.all[static_cast<std::size_t>(r)].surface);
         };
-        const auto is_cone = [&](std::int32_t r) {
-            return r >= 0 && std::holds_alternative<ConeSurface>(
-                                 regions_.all[static_cast<std::size_t>(r)].surface);
+        const auto kind = [&](std::int32_t r) {
+            return regions_.all[static_cast<std::size_t>(r)].surface.index();
         };
         const auto area = [&](std::int32_t r) {
             return regions_.all[static_cast<std::size_t>(r)].area_mm2;
@@ -104,10 +112,9 @@ class Walker {
         }
         if (a < 0 || b < 0) {
             refused_.insert(std::max(a, b));
-        } else if (is_cone(a) != is_cone(b) && curved(a) && curved(b)) {
-            // The rings of a rounded corner are cones one by one; the fillets beside it are
-            // cylinders.
-            refused_.insert(is_cone(a) ? a : b);
+        } else if (curved(a) && curved(b) && kind(a) != kind(b)) {
+            // A cylinder is seldom a mistake; the rings of a rounded corner are cones one by one.
+            refused_.insert(kind(a) > kind(b) ? a : b);
         } else if (curved(a) && curved(b) &&
                    std::max(area(a), area(b)) < kAlike * std::min(area(a), area(b))) {
             // The sectors of a ring look like cylinders one by one: none of them is.
@@ -262,6 +269,21 @@ class Walker {
                            [](const Ring& ring) { return ring.area < 0; });
     }
 
+    /// Does a boundary go round the tube of a torus?
+    [[nodiscard]] bool winds_round_tube(std::int32_t face, const std::vector<Ring>& rings) const {
+        const Surface& surface = settled_.surfaces[static_cast<std::size_t>(face)];
+        const auto* torus = std::get_if<TorusSurface>(&surface);
+        return torus != nullptr && std::any_of(rings.begin(), rings.end(), [&](const Ring& ring) {
+                   double turn = 0;
+                   for (std::size_t i = 0; i < ring.path.size(); ++i) {
+                       turn +=
+                           turn_between(tube_angle(*torus, ring.path[i]),
+                                        tube_angle(*torus, ring.path[(i + 1) % ring.path.size()]));
+                   }
+                   return std::abs(turn) > std::numbers::pi;
+               });
+    }
+
     bool close_round(std::int32_t face, const std::vector<Ring>& rings) {
         std::vector<int> round;
         std::vector<std::vector<Eigen::Vector3d>> paths;
@@ -272,6 +294,9 @@ class Walker {
             paths.push_back(ring.path);
             rims += std::abs(ring.round);
             sum += ring.round;
+        }
+        if (winds_round_tube(face, rings)) {
+            return false;
         }
         if (rims == 0) {
             return !rings.empty();

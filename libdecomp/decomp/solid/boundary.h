@@ -64,10 +64,10 @@ struct AxisLine {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
 };
 
-/// The axis of a cylinder or cone.
+/// The axis of a curved surface.
 [[nodiscard]] AxisLine axis_of(const Surface& surface);
 
-/// Signed angle of p about the axis of a cylinder or cone.
+/// Signed angle of p about the axis of a curved surface.
 [[nodiscard]] double angle_about(const Surface& surface, const Eigen::Vector3d& p);
 
 /// The difference of two angles, within (-pi, pi].

@@ -10,7 +10,6 @@ namespace decomp::solid {
 namespace {
 
 constexpr int kUnknowns = 6;  ///< centre across (2), axis tilted (2), half angle, offset
-constexpr int kRounds = 40;
 constexpr double kSettled = 1e-14;
 constexpr double kDependent = 1e-9;  ///< what remains of a row that others imply
 constexpr double kCylinder = 1e-6;   ///< radians of a half angle
@@ -179,9 +178,9 @@ std::optional<ConeFit> cone_inside(const std::vector<PlaneSurface>& planes,
 }
 
 ConeFit fit_cone(const std::vector<Eigen::Vector3d>& points, const ConeFit& start,
-                 const ConeLimits& limits) {
+                 const ConeLimits& limits, int rounds) {
     ConeFit cone = start;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         const Frame frame(cone);
         Eigen::Matrix<double, kUnknowns, kUnknowns> squares;
         squares.setZero();

@@ -37,9 +37,9 @@ struct ConeLimits {
 [[nodiscard]] std::optional<ConeFit> cone_inside(const std::vector<PlaneSurface>& planes,
                                                  const Eigen::Vector3d& middle);
 
-/// The cone of least squared distances, by Gauss-Newton from `start`. Of limits that contradict
-/// each other only the first are kept.
+/// The cone of least squared distances, by so many rounds of Gauss-Newton from `start`. Of limits
+/// that contradict each other only the first are kept.
 [[nodiscard]] ConeFit fit_cone(const std::vector<Eigen::Vector3d>& points, const ConeFit& start,
-                               const ConeLimits& limits = {});
+                               const ConeLimits& limits = {}, int rounds = 12);
 
 }  // namespace decomp::solid

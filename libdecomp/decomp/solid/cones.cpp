@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomp/solid/boundary.h"
 #include "decomp/solid/cone_fit.h"
 #include "decomp/solid/strips.h"
 
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 namespace decomp::solid {
 
@@ -22,12 +24,6 @@ constexpr double kTaper = 10;  ///< of planar_mm: between the radii of a cone
 
 using Chain = std::deque<std::uint32_t>;
 
-/// A straight line.
-struct Axis {
-    Eigen::Vector3d point;
-    Eigen::Vector3d direction;
-};
-
 class ConeFinder {
   public:
     ConeFinder(Facets& facets, const RegionOptions& options)
@@ -39,9 +35,11 @@ class ConeFinder {
                 continue;
             }
             const Chain chain = chain_from(f, g);
-            if (chain.size() >= kFewestStrips) {
-                if (const auto cone = cone_of(chain)) {
-                    try_cone(*cone, {chain.begin(), chain.end()});
+            // Its ends may be strips of other surfaces, of a fillet for instance.
+            for (const auto& few : parts_of(chain, f, g)) {
+                const auto cone = cone_of(few);
+                if (cone && try_cone(*cone, few)) {
+                    break;
                 }
             }
         }
@@ -50,6 +48,40 @@ class ConeFinder {
                             [&](std::uint32_t f) { return facets_.usable(f); })) {
                 if (const auto cone = cone_of(fan)) {
                     try_cone(*cone, fan.facets);
+                }
+            }
+        }
+    }
+
+    /// Cones in a row with cylinders and each other get one axis: that of the cylinders, otherwise
+    /// of the largest.
+    void align_all() const {
+        const std::vector<std::vector<std::uint32_t>> curved = facets_.curved_facets();
+        const std::uint32_t first = facets_.flat_count();
+        std::vector<std::uint32_t> order(curved.size());
+        std::iota(order.begin(), order.end(), first);
+        const auto is_round = [&](std::uint32_t r) {
+            return std::holds_alternative<CylinderSurface>(facets_.region(r).surface);
+        };
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return is_round(a) != is_round(b)
+                       ? is_round(a)
+                       : facets_.region(a).area_mm2 > facets_.region(b).area_mm2;
+        });
+        std::vector<bool> done(curved.size(), false);
+        for (const std::uint32_t leader : order) {
+            std::vector<std::uint32_t> row;
+            if (!done[leader - first]) {
+                row.push_back(leader);
+                done[leader - first] = true;
+            }
+            for (std::size_t i = 0; i < row.size(); ++i) {
+                for (const std::uint32_t r : facets_.curved_neighbours_of(curved[row[i] - first])) {
+                    if (!done[r - first] && !is_round(r) &&
+                        align(r, curved[r - first], axis_of(facets_.region(row[i]).surface))) {
+                        done[r - first] = true;
+                        row.push_back(r);
+                    }
                 }
             }
         }
@@ -102,6 +134,32 @@ class ConeFinder {
         return chain;
     }
 
+    /// A chain, the same without its ends, and three of it.
+    static std::vector<std::vector<std::uint32_t>> parts_of(const Chain& chain, std::uint32_t f,
+                                                            std::uint32_t g) {
+        std::vector<std::vector<std::uint32_t>> parts;
+        const auto add = [&](std::size_t from, std::size_t count) {
+            if (count >= kFewestStrips && from + count <= chain.size()) {
+                const auto begin = chain.begin() + static_cast<std::ptrdiff_t>(from);
+                parts.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(count));
+            }
+        };
+        const auto of_f = std::find(chain.begin(), chain.end(), f);
+        const auto of_g = std::find(chain.begin(), chain.end(), g);
+        const auto first = static_cast<std::size_t>(std::min(of_f, of_g) - chain.begin());
+        add(0, chain.size());
+        if (chain.size() > kFewestStrips) {
+            add(1, chain.size() - 2);
+            add(1, chain.size() - 1);
+            add(0, chain.size() - 1);
+            if (first > 0) {
+                add(first - 1, kFewestStrips);
+            }
+            add(first, kFewestStrips);
+        }
+        return parts;
+    }
+
     [[nodiscard]] std::vector<Eigen::Vector3d> points_of(
         const std::vector<std::uint32_t>& found) const {
         const std::vector<std::uint32_t> numbers = facets_.points_of(found);
@@ -118,13 +176,13 @@ class ConeFinder {
     }
 
     /// The cone through the points of a few strips.
-    [[nodiscard]] std::optional<ConeFit> cone_of(const Chain& chain) const {
+    [[nodiscard]] std::optional<ConeFit> cone_of(const std::vector<std::uint32_t>& chain) const {
         std::vector<PlaneSurface> planes;
         planes.reserve(chain.size());
         for (const std::uint32_t f : chain) {
             planes.push_back(facets_.plane(f));
         }
-        const std::vector<Eigen::Vector3d> points = points_of({chain.begin(), chain.end()});
+        const std::vector<Eigen::Vector3d> points = points_of(chain);
         Eigen::Vector3d middle = Eigen::Vector3d::Zero();
         for (const Eigen::Vector3d& p : points) {
             middle += p / static_cast<double>(points.size());
@@ -133,7 +191,15 @@ class ConeFinder {
         if (!inside || !is_cone(*inside)) {
             return std::nullopt;
         }
-        const ConeFit cone = fit_cone(points, *inside);
+        // Most strips chord no cone: that shows soon.
+        constexpr int kFirstRounds = 2;
+        const ConeFit rough = fit_cone(points, *inside, {}, kFirstRounds);
+        if (!std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
+                return std::abs(rough.distance_mm(p)) <= options_.tolerance_mm;
+            })) {
+            return std::nullopt;
+        }
+        const ConeFit cone = fit_cone(points, rough);
         return is_cone(cone) ? std::optional(cone) : std::nullopt;
     }
 
@@ -176,19 +242,19 @@ class ConeFinder {
         guess.circle = {Eigen::Vector2d::Zero(), radius};
     }
 
-    void try_cone(const ConeFit& cone, const std::vector<std::uint32_t>& chain) {
+    bool try_cone(const ConeFit& cone, const std::vector<std::uint32_t>& chain) {
         Guess guess{Rulings::parallel(cone.axis), {}};
         look_along(cone, points_of(chain), guess);
         for (const std::uint32_t f : chain) {
             const auto sides = strips_.sides_of(f, guess.rulings);
             if (!sides) {
-                return;
+                return false;
             }
             const double width = (sides->first - sides->second).norm();
             guess.widest_mm = std::max(guess.widest_mm, 1.5 * width);
         }
         if (guess.widest_mm > 3 * guess.circle.radius) {
-            return;
+            return false;
         }
         guess.outward = guess.rulings.across(facets_[chain[0]].normal)
                             .dot(strips_.sides_of(chain[0], guess.rulings)->first) > 0;
@@ -200,9 +266,11 @@ class ConeFinder {
         const auto found = strips_.settle(
             guess, chain[chain.size() / 2],
             [&](const auto& facets, Guess& better) { return refit(facets, better, fitted); });
-        if (found && is_cone(fitted) && tapers(*found, fitted)) {
-            facets_.keep(found->facets, fitted.surface(), found->guess.outward, found->sagitta_mm);
+        if (!found || !is_cone(fitted) || !tapers(*found, fitted)) {
+            return false;
         }
+        facets_.keep(found->facets, fitted.surface(), found->guess.outward, found->sagitta_mm);
+        return true;
     }
 
     /// A cone has two radii that differ.
@@ -217,17 +285,13 @@ class ConeFinder {
     }
 
     /// The axis of a curved neighbour that is the cone's as well.
-    [[nodiscard]] std::optional<Axis> shared_axis(const std::vector<std::uint32_t>& found,
-                                                  const ConeFit& cone, double near_mm) const {
+    [[nodiscard]] std::optional<AxisLine> shared_axis(const std::vector<std::uint32_t>& found,
+                                                      const ConeFit& cone, double near_mm) const {
         for (const std::uint32_t r : facets_.curved_neighbours_of(found)) {
-            const Surface& surface = facets_.region(r).surface;
-            const auto* other = std::get_if<ConeSurface>(&surface);
-            const auto* cylinder = std::get_if<CylinderSurface>(&surface);
-            const Axis axis = other != nullptr ? Axis{other->apex, other->axis}
-                                               : Axis{cylinder->origin, cylinder->axis};
-            const double apart = (cone.centre - axis.point).cross(axis.direction).norm();
-            if (axis.direction.cross(cone.axis).norm() < kAlmost && apart <= near_mm) {
-                return axis;
+            const AxisLine line = axis_of(facets_.region(r).surface);
+            const double apart = (cone.centre - line.origin).cross(line.axis).norm();
+            if (line.axis.cross(cone.axis).norm() < kAlmost && apart <= near_mm) {
+                return line;
             }
         }
         return std::nullopt;
@@ -235,18 +299,19 @@ class ConeFinder {
 
     /// What lies around the cone and almost fits it, has to fit exactly: otherwise they would meet
     /// in curves that are neither lines nor circles.
+    /// @param all or only what lies square to the axis or along it
     [[nodiscard]] ConeLimits limits_of(const std::vector<std::uint32_t>& found, const Guess& guess,
-                                       ConeFit& cone) const {
+                                       bool all, ConeFit& cone) const {
         const double near_mm =
             std::max(10 * options_.planar_mm,
                      std::min(options_.tolerance_mm, 0.1 * strips_.sagitta_of(found, guess)));
         ConeLimits limits;
         limits.side = guess.outward ? 1 : -1;
         const std::vector<std::uint32_t> around = facets_.neighbours_of(found);
-        if (const auto axis = shared_axis(found, cone, near_mm)) {
-            const double sense = axis->direction.dot(cone.axis) < 0 ? -1 : 1;
-            cone.axis = sense * axis->direction;
-            cone.centre = axis->point + cone.axis * cone.axis.dot(cone.centre - axis->point);
+        if (const auto line = all ? shared_axis(found, cone, near_mm) : std::nullopt) {
+            const double sense = line->axis.dot(cone.axis) < 0 ? -1 : 1;
+            cone.axis = sense * line->axis;
+            cone.centre = line->origin + cone.axis * cone.axis.dot(cone.centre - line->origin);
             limits.fixed_direction = limits.fixed_centre = true;
         } else {
             const auto cap = std::find_if(around.begin(), around.end(), [&](std::uint32_t g) {
@@ -258,6 +323,16 @@ class ConeFinder {
                 limits.fixed_direction = true;
             }
         }
+        add_planes(around, cone, near_mm, limits);
+        if (!all) {
+            limits.touched.clear();
+        }
+        return limits;
+    }
+
+    /// Planes that almost contain the axis, or almost touch the cone.
+    void add_planes(const std::vector<std::uint32_t>& around, const ConeFit& cone, double near_mm,
+                    ConeLimits& limits) const {
         for (const std::uint32_t g : around) {
             const PlaneSurface& plane = facets_.plane(g);
             const double along = plane.normal.dot(cone.axis);
@@ -269,13 +344,40 @@ class ConeFinder {
                 limits.touched.push_back(plane);
             }
         }
-        return limits;
     }
 
-    /// Fits, keeps what is near, and fits again.
-    double refit(const std::vector<std::uint32_t>& found, Guess& guess, ConeFit& cone) const {
-        const std::vector<Eigen::Vector3d> points = points_of(found);
-        const ConeLimits limits = limits_of(found, guess, cone);
+    /// Lays a cone on the axis of a neighbour. False where it has another, or keeps to planes.
+    bool align(std::uint32_t r, const std::vector<std::uint32_t>& own, const AxisLine& line) const {
+        const Region& region = facets_.region(r);
+        const auto& before = std::get<ConeSurface>(region.surface);
+        const std::vector<Eigen::Vector3d> points = points_of(own);
+        ConeFit cone{points[0], before.axis, before.half_angle, 0};
+        cone.centre = before.apex + before.axis * before.axis.dot(points[0] - before.apex);
+        cone.offset_mm = std::sin(before.half_angle) * (cone.centre - before.apex).norm();
+        const double near_mm = std::max(10 * options_.planar_mm,
+                                        std::min(options_.tolerance_mm, 0.1 * region.sagitta_mm));
+        ConeLimits limits;
+        limits.fixed_direction = limits.fixed_centre = true;
+        limits.side = region.outward ? 1 : -1;
+        add_planes(facets_.flat_around(own), cone, near_mm, limits);
+        if (!limits.along.empty() || !limits.touched.empty() ||
+            line.axis.cross(cone.axis).norm() > kAlmost ||
+            (cone.centre - line.origin).cross(line.axis).norm() > near_mm) {
+            return false;
+        }
+        cone.axis = line.axis * (line.axis.dot(cone.axis) < 0 ? -1 : 1);
+        cone.centre = line.origin + cone.axis * cone.axis.dot(cone.centre - line.origin);
+        const double median = fit_near(points, limits, cone);
+        if (!(median <= strips_.rest_mm(region.sagitta_mm)) || !is_cone(cone)) {
+            return false;
+        }
+        facets_.lay(r, cone.surface());
+        return true;
+    }
+
+    /// Fits, keeps what is near, and fits again. The median distance.
+    double fit_near(const std::vector<Eigen::Vector3d>& points, const ConeLimits& limits,
+                    ConeFit& cone) const {
         double median = 0;
         for (int round = 0; round < 4; ++round) {
             std::vector<double> off;
@@ -291,6 +393,18 @@ class ConeFinder {
             }
             cone = fit_cone(near, cone, limits);
             median = nearest.median;
+        }
+        return median;
+    }
+
+    double refit(const std::vector<std::uint32_t>& found, Guess& guess, ConeFit& cone) const {
+        const std::vector<Eigen::Vector3d> points = points_of(found);
+        const ConeFit before = cone;
+        double median = fit_near(points, limits_of(found, guess, true, cone), cone);
+        if (!(median <= strips_.rest_mm(strips_.sagitta_of(found, guess)))) {
+            // Neighbours that are known no better than these points mislead.
+            cone = before;
+            median = fit_near(points, limits_of(found, guess, false, cone), cone);
         }
         if (!is_cone(cone)) {
             return INFINITY;
@@ -310,11 +424,19 @@ void find_cones(Facets& facets, const RegionOptions& options) {
     ConeFinder(facets, options).find();
 }
 
+void align_cones(Facets& facets, const RegionOptions& options) {
+    ConeFinder(facets, options).align_all();
+}
+
 void find_curved(const part::Part& part, const Adjacency& adjacency, const RegionOptions& options,
                  Regions& regions) {
     Facets facets(part, adjacency, regions);
-    find_cylinders(facets, options);
+    // Cones first: pieces of a turned shape look like cylinders the other way.
     find_cones(facets, options);
+    find_cylinders(facets, options);
+    align_cones(facets, options);
+    regions.band_of = regions.of;
+    find_tori(facets, options);
 }
 
 }  // namespace decomp::solid

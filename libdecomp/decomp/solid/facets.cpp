@@ -102,6 +102,7 @@ std::vector<Fan> Facets::fans(std::size_t least) const {
         }
     }
     std::vector<Fan> all;
+    all.reserve(fans.size());
     for (auto& [point, fan] : fans) {
         all.push_back(std::move(fan));
     }
@@ -157,6 +158,29 @@ std::vector<std::uint32_t> Facets::curved_neighbours_of(
         return region(a).area_mm2 > region(b).area_mm2;
     });
     return around;
+}
+
+std::vector<std::uint32_t> Facets::flat_around(const std::vector<std::uint32_t>& found) const {
+    std::vector<std::uint32_t> around;
+    for (const std::uint32_t f : found) {
+        for_each_halfedge(f, [&](std::uint32_t h) {
+            if (const std::uint32_t g = across(h); is_flat(g) && !taken_[g]) {
+                around.push_back(g);
+            }
+        });
+    }
+    return by_area(std::move(around));
+}
+
+std::vector<std::vector<std::uint32_t>> Facets::curved_facets() const {
+    std::vector<std::vector<std::uint32_t>> curved(regions_.all.size() - flat_count_);
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+        if (taken_[f]) {
+            const std::int32_t r = regions_.of[facets_[f].triangles[0]];
+            curved[static_cast<std::size_t>(r) - flat_count_].push_back(f);
+        }
+    }
+    return curved;
 }
 
 std::vector<std::uint32_t> Facets::points_of(const std::vector<std::uint32_t>& found) const {

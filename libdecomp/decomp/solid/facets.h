@@ -97,6 +97,13 @@ class Facets {
     [[nodiscard]] std::vector<std::uint32_t> curved_neighbours_of(
         const std::vector<std::uint32_t>& found) const;
 
+    /// Flat regions that touch these facets and are part of no curved one, largest first.
+    [[nodiscard]] std::vector<std::uint32_t> flat_around(
+        const std::vector<std::uint32_t>& found) const;
+
+    /// Of each curved region, from flat_count() on.
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> curved_facets() const;
+
     [[nodiscard]] std::vector<std::uint32_t> points_of(
         const std::vector<std::uint32_t>& found) const;
 
@@ -106,6 +113,9 @@ class Facets {
     /// Makes one curved region of these facets.
     void keep(const std::vector<std::uint32_t>& found, const Surface& surface, bool outward,
               double sagitta_mm);
+
+    /// Gives a curved region another surface.
+    void lay(std::uint32_t r, const Surface& surface) { regions_.all[r].surface = surface; }
 
     [[nodiscard]] const Region& region(std::uint32_t r) const { return regions_.all[r]; }
 

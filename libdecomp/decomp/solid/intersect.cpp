@@ -16,8 +16,10 @@ namespace {
 constexpr double kParallel = 1e-6;  ///< sine of the angle between directions that count as one
 constexpr double kSlender = 1e-3;   ///< a longer ellipse is taken for a mistake
 constexpr double kShortestMm = 1e-6;
-constexpr double kOnCurveMm = 2e-6;  ///< between the curve and its ends or surfaces
-constexpr double kCoaxial = 1e-4;    ///< between axes that may be one; the curve decides
+constexpr double kTouchingMm = 1e-5;  ///< a torus so near to a surface touches it
+constexpr double kOnCurveMm = 1e-5;   ///< between the curve and its ends or surfaces
+constexpr double kSlideMm = 2e-4;     ///< of a line along a surface that touches; it stays on it
+constexpr double kCoaxial = 1e-4;     ///< between axes that may be one; the curve decides
 
 EllipseCurve circle_about(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
                           double radius_mm) {
@@ -112,7 +114,7 @@ std::optional<BoundedCurve> generator_along(const Eigen::Vector3d& axis,
                                             const std::vector<Eigen::Vector3d>& path, bool closed) {
     auto line = closed ? std::nullopt : line_along(path);
     if (!line ||
-        std::get<LineCurve>(line->curve).direction.cross(axis).norm() * line->t1 > kOnCurveMm) {
+        std::get<LineCurve>(line->curve).direction.cross(axis).norm() * line->t1 > kSlideMm) {
         return std::nullopt;
     }
     return line;
@@ -147,36 +149,111 @@ std::optional<BoundedCurve> plane_curve(const PlaneSurface& plane, const ConeSur
     return section ? arc_along(*section, path, closed) : std::nullopt;
 }
 
-/// Distance from an axis as a linear function of the height over its origin.
+/// A surface of revolution in a half plane through its axis, by radius and height over `origin`: a
+/// straight line, or a circle.
 struct Profile {
     Eigen::Vector3d origin;
     Eigen::Vector3d axis;
-    double slope = 0;
-    double at_origin_mm = 0;
+    Eigen::Vector2d on_it;      ///< a point of the line, the circle's centre
+    Eigen::Vector2d direction;  ///< of the line; unit
+    double radius_mm = 0;       ///< of the circle; 0: a line
 };
 
 Profile profile_of(const Surface& surface) {
     if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
-        return {cylinder->origin, cylinder->axis, 0, cylinder->radius_mm};
+        return {cylinder->origin, cylinder->axis, {cylinder->radius_mm, 0}, {0, 1}};
+    }
+    if (const auto* torus = std::get_if<TorusSurface>(&surface)) {
+        return {torus->centre, torus->axis, {torus->major_mm, 0}, {0, 0}, torus->minor_mm};
     }
     const auto& cone = std::get<ConeSurface>(surface);
-    return {cone.apex, cone.axis, std::tan(cone.half_angle), 0};
+    return {cone.apex, cone.axis, {0, 0}, {std::sin(cone.half_angle), std::cos(cone.half_angle)}};
 }
 
-/// Where cylinders and cones about one axis cross.
-std::optional<EllipseCurve> common_circle(const Profile& a, const Profile& b) {
-    const double sense = a.axis.dot(b.axis) < 0 ? -1 : 1;
-    const Eigen::Vector3d apart = b.origin - a.origin;
-    if (a.axis.cross(b.axis).norm() > kCoaxial || apart.cross(a.axis).norm() > kCoaxial ||
-        std::abs(a.slope - sense * b.slope) < kParallel) {
+/// The same over another origin and axis; nothing where the axes are not one.
+std::optional<Profile> about(Profile profile, const Profile& other) {
+    const Eigen::Vector3d apart = profile.origin - other.origin;
+    if (profile.axis.cross(other.axis).norm() > kCoaxial ||
+        apart.cross(other.axis).norm() > kCoaxial) {
         return std::nullopt;
     }
-    const double height = (b.at_origin_mm - sense * b.slope * a.axis.dot(apart) - a.at_origin_mm) /
-                          (a.slope - sense * b.slope);
-    const double radius_mm = a.at_origin_mm + a.slope * height;
-    return radius_mm > kShortestMm
-               ? std::optional(circle_about(a.origin + height * a.axis, a.axis, radius_mm))
-               : std::nullopt;
+    const double sense = profile.axis.dot(other.axis) < 0 ? -1 : 1;
+    profile.on_it.y() = sense * profile.on_it.y() + other.axis.dot(apart);
+    profile.direction.y() *= sense;
+    profile.origin = other.origin;
+    profile.axis = other.axis;
+    return profile;
+}
+
+/// Where a profile crosses or touches a line, nearest to a point.
+std::optional<Eigen::Vector2d> crossing(const Profile& profile, const Eigen::Vector2d& on_line,
+                                        const Eigen::Vector2d& direction,
+                                        const Eigen::Vector2d& near) {
+    const Eigen::Vector2d apart = profile.on_it - on_line;
+    if (profile.radius_mm == 0) {
+        Eigen::Matrix2d both;
+        both << direction, -profile.direction;
+        return std::abs(both.determinant()) < kParallel
+                   ? std::nullopt
+                   : std::optional(
+                         Eigen::Vector2d(on_line + direction * (both.inverse() * apart).x()));
+    }
+    const Eigen::Vector2d foot = on_line + direction * direction.dot(apart);
+    const double off = (foot - profile.on_it).norm();
+    if (std::abs(off - profile.radius_mm) <= kTouchingMm) {
+        return foot;
+    }
+    if (off > profile.radius_mm) {
+        return std::nullopt;
+    }
+    const Eigen::Vector2d half =
+        direction * std::sqrt(profile.radius_mm * profile.radius_mm - off * off);
+    return (foot + half - near).norm() < (foot - half - near).norm() ? Eigen::Vector2d(foot + half)
+                                                                     : Eigen::Vector2d(foot - half);
+}
+
+/// In the half plane of a profile.
+Eigen::Vector2d seen(const Profile& profile, const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p - profile.origin;
+    const double height = profile.axis.dot(d);
+    return {(d - height * profile.axis).norm(), height};
+}
+
+std::optional<BoundedCurve> circle_along(const Profile& profile,
+                                         const std::optional<Eigen::Vector2d>& at,
+                                         const std::vector<Eigen::Vector3d>& path, bool closed) {
+    if (!at || at->x() < kShortestMm) {
+        return std::nullopt;
+    }
+    return arc_along(circle_about(profile.origin + at->y() * profile.axis, profile.axis, at->x()),
+                     path, closed);
+}
+
+/// The section of the tube in a plane through the axis, on the side of the path.
+std::optional<BoundedCurve> meridian_along(const TorusSurface& torus, const Eigen::Vector3d& normal,
+                                           const std::vector<Eigen::Vector3d>& path, bool closed) {
+    Eigen::Vector3d out = normal.cross(torus.axis).normalized();
+    out = out.dot(path.front() - torus.centre) < 0 ? Eigen::Vector3d(-out) : out;
+    return arc_along({torus.centre + torus.major_mm * out, torus.minor_mm * out,
+                      torus.minor_mm * torus.axis, true},
+                     path, closed);
+}
+
+std::optional<BoundedCurve> plane_curve(const PlaneSurface& plane, const TorusSurface& torus,
+                                        const std::vector<Eigen::Vector3d>& path, bool closed) {
+    const double along = plane.normal.dot(torus.axis);
+    if (std::abs(along) < kParallel) {
+        return std::abs(distance_mm(plane, torus.centre)) < kOnCurveMm
+                   ? meridian_along(torus, plane.normal, path, closed)
+                   : std::nullopt;
+    }
+    if (plane.normal.cross(torus.axis).norm() > kParallel) {
+        return std::nullopt;
+    }
+    const Profile profile = profile_of(torus);
+    const Eigen::Vector2d level(0, (plane.offset_mm - plane.normal.dot(torus.centre)) / along);
+    return circle_along(profile, crossing(profile, level, {1, 0}, seen(profile, path.front())),
+                        path, closed);
 }
 
 std::optional<BoundedCurve> round_curve(const Surface& a, const Surface& b,
@@ -188,10 +265,23 @@ std::optional<BoundedCurve> round_curve(const Surface& a, const Surface& b,
                    ? generator_along(cylinder_a->axis, path, closed)
                    : std::nullopt;
     }
-    // By the steeper one: a circle of the other lies where it is wide enough.
-    const bool swapped = profile_of(a).slope < profile_of(b).slope;
-    const auto circle = common_circle(profile_of(swapped ? b : a), profile_of(swapped ? a : b));
-    return circle ? arc_along(*circle, path, closed) : std::nullopt;
+    const auto* torus = std::get_if<TorusSurface>(&a);
+    const Surface& other = torus != nullptr ? b : a;
+    torus = torus != nullptr ? torus : std::get_if<TorusSurface>(&b);
+    const auto* cylinder = std::get_if<CylinderSurface>(&other);
+    if (torus != nullptr && cylinder != nullptr &&
+        std::abs(torus->axis.dot(cylinder->axis)) < kParallel) {
+        return meridian_along(*torus, cylinder->axis, path, closed);  // a fillet that runs on
+    }
+    const bool swapped = std::holds_alternative<TorusSurface>(b);
+    const Profile profile = profile_of(swapped ? b : a);
+    const auto line = about(profile_of(swapped ? a : b), profile);
+    return line && line->radius_mm == 0
+               ? circle_along(
+                     profile,
+                     crossing(profile, line->on_it, line->direction, seen(profile, path.front())),
+                     path, closed)
+               : std::nullopt;
 }
 
 std::optional<BoundedCurve> curve_between(const Surface& a, const Surface& b,
@@ -208,6 +298,9 @@ std::optional<BoundedCurve> curve_between(const Surface& a, const Surface& b,
     if (const auto* cone = std::get_if<ConeSurface>(&other)) {
         return plane_curve(*plane, *cone, path, closed);
     }
+    if (const auto* torus = std::get_if<TorusSurface>(&other)) {
+        return plane_curve(*plane, *torus, path, closed);
+    }
     return closed ? std::nullopt : line_along(path);
 }
 
@@ -220,6 +313,10 @@ std::optional<BoundedCurve> curve_along(const Surface& a, const Surface& b,
     if (!found ||
         (std::holds_alternative<PlaneSurface>(a) && std::holds_alternative<PlaneSurface>(b))) {
         return found;
+    }
+    if (!closed) {
+        found->off_mm = std::max((point_at(found->curve, found->t0) - path.front()).norm(),
+                                 (point_at(found->curve, found->t1) - path.back()).norm());
     }
     constexpr int kPieces = 8;
     for (int i = 0; i <= kPieces; ++i) {

@@ -28,11 +28,16 @@ void give_way(const std::vector<std::int32_t>& refused, Regions& regions) {
     for (std::size_t t = 0; t < regions.of.size(); ++t) {
         const std::int32_t r = regions.of[t];
         if (r >= 0 && gone[static_cast<std::size_t>(r)]) {
-            // A curved region goes back to its strips, a strip to its triangles.
+            // A torus goes back to its bands, a band to its strips, a strip to its triangles.
+            if (regions.band_of[t] != r) {
+                regions.of[t] = regions.band_of[t];
+                continue;
+            }
             regions.of[t] = regions.plane_of[t] == r ? -1 : regions.plane_of[t];
             if (regions.plane_of[t] == r) {
                 regions.plane_of[t] = -1;
             }
+            regions.band_of[t] = regions.of[t];
         }
     }
 }
@@ -174,6 +179,7 @@ void report_surfaces(const Regions& regions, SolidReport& report) {
             report.planes += std::holds_alternative<PlaneSurface>(region.surface) ? 1U : 0U;
             report.cylinders += std::holds_alternative<CylinderSurface>(region.surface) ? 1U : 0U;
             report.cones += std::holds_alternative<ConeSurface>(region.surface) ? 1U : 0U;
+            report.tori += std::holds_alternative<TorusSurface>(region.surface) ? 1U : 0U;
             report.sagitta_mm = std::max(report.sagitta_mm, region.sagitta_mm);
         }
     }

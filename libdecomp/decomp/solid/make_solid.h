@@ -15,7 +15,7 @@ namespace decomp::solid {
 enum class Detail {
     CutsAlone,  ///< the faces that cuts have made
     Flat,       ///< and flat regions
-    Curved,     ///< and cylinders and cones
+    Curved,     ///< and cylinders, cones and tori
 };
 
 struct SolidOptions {
@@ -33,6 +33,7 @@ struct SolidReport {
     std::size_t planes = 0;  ///< faces of more than one triangle
     std::size_t cylinders = 0;
     std::size_t cones = 0;
+    std::size_t tori = 0;
     std::size_t removed_points = 0;  ///< by joining triangles; 0: the mesh is kept as it is
     double decimation_mm = 0;        ///< largest distance between the mesh before and after that
     double moved_mm = 0;             ///< largest move of a vertex onto its surfaces
@@ -45,10 +46,10 @@ struct MadeSolid {
 };
 
 /// Makes a solid of a part's mesh: each cut face and each flat region becomes one planar face with
-/// holes, strips that chord a cylinder or a cone become that surface, every other triangle is a
-/// planar face. Edges are shared as in the mesh. Where surfaces cannot be made to meet along lines,
-/// circles and ellipses within the tolerance, a region goes back to its triangles. `part.sources`
-/// may be empty.
+/// holes, strips that chord a cylinder or cone and bands that chord a torus become that surface,
+/// every other triangle is a planar face. Edges are shared as in the mesh. Where surfaces cannot be
+/// made to meet along lines, circles and ellipses within the tolerance, a region goes back to its
+/// bands, strips or triangles. `part.sources` may be empty.
 /// @error solid.not_closed, solid.too_many_faces, solid.unsound, run.cancelled
 /// Cost O(n log n), about 20 us a triangle.
 [[nodiscard]] Result<MadeSolid> make_solid(const part::Part& part, const SolidOptions& options,

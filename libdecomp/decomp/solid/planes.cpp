@@ -32,7 +32,7 @@ class PlaneFinder {
                 grow(seed);
             }
         }
-        regions_.plane_of = regions_.of;
+        regions_.plane_of = regions_.band_of = regions_.of;
         return std::move(regions_);
     }
 

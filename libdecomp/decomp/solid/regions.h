@@ -22,6 +22,7 @@ struct Region {
 struct Regions {
     std::vector<std::int32_t> of;        ///< for each triangle; -1: a face of its own
     std::vector<std::int32_t> plane_of;  ///< the same before curved regions were found
+    std::vector<std::int32_t> band_of;   ///< the same before cones and cylinders were made tori
     std::vector<Region> all;
 };
 
@@ -40,7 +41,9 @@ struct RegionOptions {
 /// strip is a flat region with two straight sides that are parallel or meet in the apex; a surface
 /// has three at least, none turned about the axis against its neighbour by more than 31 degrees,
 /// and points that deviate from it far less than the strips do. The axis is laid square to a flat
-/// neighbour, along it, or on the axis of a curved one, where it almost is.
+/// neighbour, along it, or on the axis of a curved one, where it almost is. Then such bands about
+/// one axis, three at least, whose rims lie on one circle of the half plane through it become a
+/// torus.
 void find_curved(const part::Part& part, const Adjacency& adjacency, const RegionOptions& options,
                  Regions& regions);
 

@@ -197,6 +197,32 @@ std::optional<double> clear_angle(const Solid& solid, std::size_t face,
     return clear == angles.end() ? std::nullopt : std::optional(*clear);
 }
 
+/// An arc of a torus from one vertex to another at the same angle about the axis, over the side of
+/// the tube that lies to the left of who goes round the axis, seen from outside the solid; -1
+/// where they are one.
+std::int32_t add_meridian(Solid& solid, const Face& face, const TorusSurface& torus,
+                          std::int32_t from, std::int32_t to, int round) {
+    const Eigen::Vector3d& start = solid.vertices[static_cast<std::size_t>(from)];
+    const Eigen::Vector3d& end = solid.vertices[static_cast<std::size_t>(to)];
+    const Eigen::Vector3d d = start - torus.centre;
+    const Eigen::Vector3d out = (d - torus.axis * torus.axis.dot(d)).normalized();
+    const Eigen::Vector3d normal = normal_at(torus, start) * (face.outward ? 1 : -1);
+    const Eigen::Vector3d left = normal.cross(round * torus.axis.cross(out));
+    EllipseCurve circle{torus.centre + torus.major_mm * out, torus.minor_mm * out,
+                        torus.minor_mm * torus.axis, true};
+    if (normal_at(torus, start).cross(left).dot(out.cross(torus.axis)) < 0) {
+        circle.minor = -circle.minor;
+    }
+    const double t0 = parameter_of(circle, start);
+    double t1 = parameter_of(circle, end);
+    t1 += t1 < t0 ? 2 * std::numbers::pi : 0;
+    if ((t1 - t0) * torus.minor_mm < kShortestMm) {
+        return -1;
+    }
+    solid.edges.push_back({circle, from, to, t0, t1});
+    return static_cast<std::int32_t>(solid.edges.size()) - 1;
+}
+
 /// A straight edge between two vertices; -1 where they are one.
 std::int32_t add_line(Solid& solid, std::int32_t from, std::int32_t to) {
     const Eigen::Vector3d& start = solid.vertices[static_cast<std::size_t>(from)];
@@ -246,7 +272,11 @@ bool add_seam(Solid& solid, std::int32_t face, const std::vector<Path>& walk,
     }
     const Loop first = started_at(solid, solid.faces[f].loops[rims[0]], *start);
     const Loop second = started_at(solid, solid.faces[f].loops[rims[1]], *end);
-    const std::int32_t seam = add_line(solid, *start, *end);
+    const Surface surface = solid.faces[f].surface;
+    const auto* torus = std::get_if<TorusSurface>(&surface);
+    const std::int32_t seam = torus == nullptr ? add_line(solid, *start, *end)
+                                               : add_meridian(solid, solid.faces[f], *torus, *start,
+                                                              *end, round[rims[0]]);
     if (first.empty() || second.empty() || seam < 0) {
         return false;
     }

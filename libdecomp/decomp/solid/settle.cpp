@@ -6,15 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace decomp::solid {
 
 namespace {
 
 /// A corner that stays farther from one of its surfaces than this is no corner of theirs.
-constexpr double kOffMm = 1e-6;
+constexpr double kOffMm = 1e-5;
 constexpr double kExact = 1e-13;        ///< of the coordinates
 constexpr double kOneDirection = 1e-4;  ///< between normals of surfaces that touch
+constexpr double kTouching = 1e-3;      ///< between normals of a torus and what it touches
 constexpr int kRounds = 12;
 
 /// For each corner the regions that meet there, sorted.
@@ -37,40 +39,90 @@ std::vector<std::vector<std::int32_t>> regions_at_corners(const mesh::TriMesh& m
     return meeting;
 }
 
+struct Point {
+    Eigen::Vector3d at;
+    double off = 0;  ///< the largest distance from a surface
+};
+
+/// A surface through the circle in which a torus touches another near a point; nothing where it
+/// does not. Touching surfaces alone leave a point free to slide across that circle.
+std::optional<Surface> touching_circle(const TorusSurface& torus, const Surface& other,
+                                       const Eigen::Vector3d& at) {
+    if (normal_at(torus, at).cross(normal_at(other, at)).norm() > kTouching) {
+        return std::nullopt;
+    }
+    if (const auto* plane = std::get_if<PlaneSurface>(&other)) {
+        return plane->normal.cross(torus.axis).norm() < kTouching
+                   ? std::optional<Surface>(
+                         CylinderSurface{torus.centre, torus.axis, torus.major_mm})
+                   : std::nullopt;
+    }
+    if (!std::holds_alternative<CylinderSurface>(other)) {
+        return std::nullopt;
+    }
+    const Eigen::Vector3d axis = axis_of(other).axis;
+    if (std::abs(axis.dot(torus.axis)) < kTouching) {
+        return PlaneSurface{axis, axis.dot(torus.centre)};
+    }
+    return axis.cross(torus.axis).norm() < kTouching
+               ? std::optional<Surface>(PlaneSurface{torus.axis, torus.axis.dot(torus.centre)})
+               : std::nullopt;
+}
+
+/// By Gauss-Newton: each step is the shortest that the tangent planes ask for.
+Point common_point(const Eigen::Vector3d& start, const std::vector<Surface>& meeting) {
+    const auto count = static_cast<Eigen::Index>(meeting.size());
+    Point found{start};
+    for (int round = 0; round < kRounds; ++round) {
+        Eigen::MatrixXd gradients(count, 3);
+        Eigen::VectorXd residuals(count);
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const Surface& surface = meeting[static_cast<std::size_t>(i)];
+            gradients.row(i) = normal_at(surface, found.at).transpose();
+            residuals[i] = distance_mm(surface, found.at);
+        }
+        found.off = residuals.cwiseAbs().maxCoeff();
+        if (found.off <= kExact * (1 + found.at.cwiseAbs().maxCoeff())) {
+            break;
+        }
+        Eigen::JacobiSVD<Eigen::MatrixXd> svd(gradients, Eigen::ComputeThinU | Eigen::ComputeThinV);
+        svd.setThreshold(kOneDirection);
+        found.at -= svd.solve(residuals);
+    }
+    return found;
+}
+
 /// The regions of one corner.
 class Meeting {
   public:
     Meeting(const Regions& regions, const std::vector<std::int32_t>& own)
         : regions_(regions), own_(own) {}
 
-    struct Point {
-        Eigen::Vector3d at;
-        double off = 0;  ///< the largest distance from a surface
-    };
-
-    /// Where the surfaces meet, by Gauss-Newton: each step is the shortest that their tangent
-    /// planes ask for.
+    /// Where the surfaces meet; where a torus touches one of them, on the circle in which it does.
     [[nodiscard]] Point common_point(const Eigen::Vector3d& start) const {
-        const auto count = static_cast<Eigen::Index>(own_.size());
-        Point found{start};
-        for (int round = 0; round < kRounds; ++round) {
-            Eigen::MatrixXd gradients(count, 3);
-            Eigen::VectorXd residuals(count);
-            for (Eigen::Index i = 0; i < count; ++i) {
-                const Surface& surface = region(own_[static_cast<std::size_t>(i)]).surface;
-                gradients.row(i) = normal_at(surface, found.at).transpose();
-                residuals[i] = distance_mm(surface, found.at);
-            }
-            found.off = residuals.cwiseAbs().maxCoeff();
-            if (found.off <= kExact * (1 + found.at.cwiseAbs().maxCoeff())) {
-                break;
-            }
-            Eigen::JacobiSVD<Eigen::MatrixXd> svd(gradients,
-                                                  Eigen::ComputeThinU | Eigen::ComputeThinV);
-            svd.setThreshold(kOneDirection);
-            found.at -= svd.solve(residuals);
+        std::vector<Surface> meeting;
+        meeting.reserve(own_.size());
+        for (const std::int32_t r : own_) {
+            meeting.push_back(region(r).surface);
         }
-        return found;
+        const Point found = solid::common_point(start, meeting);
+        std::vector<Surface> circles;
+        for (const Surface& a : meeting) {
+            for (const Surface& b : meeting) {
+                const auto* torus = std::get_if<TorusSurface>(&a);
+                if (torus == nullptr || &a == &b) {
+                    continue;
+                }
+                if (const auto through = touching_circle(*torus, b, found.at)) {
+                    circles.push_back(*through);
+                }
+            }
+        }
+        if (circles.empty()) {
+            return found;
+        }
+        meeting.insert(meeting.end(), circles.begin(), circles.end());
+        return solid::common_point(found.at, meeting);
     }
 
     /// How far the corner may move: triangles stay behind a curved surface by its sagitta.
@@ -174,7 +226,7 @@ Settled settle(const mesh::TriMesh& mesh, const Regions& regions, const FaceMap&
             continue;
         }
         const Meeting corner(regions, meeting[p]);
-        const Meeting::Point found = corner.common_point(mesh.points[p]);
+        const Point found = corner.common_point(mesh.points[p]);
         const double moved = (found.at - mesh.points[p]).norm();
         if (!(found.off <= kOffMm) || !(moved <= corner.allowed_mm(tolerance_mm))) {
             refused[static_cast<std::size_t>(corner.smallest())] = true;

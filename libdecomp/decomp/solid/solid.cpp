@@ -17,10 +17,13 @@ void move(Surface& surface, const Eigen::Isometry3d& motion) {
     } else if (auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
         cylinder->origin = motion * cylinder->origin;
         cylinder->axis = motion.linear() * cylinder->axis;
+    } else if (auto* cone = std::get_if<ConeSurface>(&surface)) {
+        cone->apex = motion * cone->apex;
+        cone->axis = motion.linear() * cone->axis;
     } else {
-        auto& cone = std::get<ConeSurface>(surface);
-        cone.apex = motion * cone.apex;
-        cone.axis = motion.linear() * cone.axis;
+        auto& torus = std::get<TorusSurface>(surface);
+        torus.centre = motion * torus.centre;
+        torus.axis = motion.linear() * torus.axis;
     }
 }
 
@@ -75,6 +78,12 @@ Eigen::Vector3d across(const Eigen::Vector3d& d, const Eigen::Vector3d& axis) {
     return d - axis * axis.dot(d);
 }
 
+/// To p from the nearest point of the circle in the middle of the tube.
+Eigen::Vector3d from_tube(const TorusSurface& torus, const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p - torus.centre;
+    return d - torus.major_mm * across(d, torus.axis).normalized();
+}
+
 }  // namespace
 
 double distance_mm(const Surface& surface, const Eigen::Vector3d& p) {
@@ -83,6 +92,9 @@ double distance_mm(const Surface& surface, const Eigen::Vector3d& p) {
     }
     if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
         return across(p - cylinder->origin, cylinder->axis).norm() - cylinder->radius_mm;
+    }
+    if (const auto* torus = std::get_if<TorusSurface>(&surface)) {
+        return from_tube(*torus, p).norm() - torus->minor_mm;
     }
     const auto& cone = std::get<ConeSurface>(surface);
     const Eigen::Vector3d d = p - cone.apex;
@@ -96,6 +108,9 @@ Eigen::Vector3d normal_at(const Surface& surface, const Eigen::Vector3d& p) {
     }
     if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
         return across(p - cylinder->origin, cylinder->axis).normalized();
+    }
+    if (const auto* torus = std::get_if<TorusSurface>(&surface)) {
+        return from_tube(*torus, p).normalized();
     }
     const auto& cone = std::get<ConeSurface>(surface);
     return across(p - cone.apex, cone.axis).normalized() * std::cos(cone.half_angle) -

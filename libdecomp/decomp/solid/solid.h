@@ -29,7 +29,15 @@ struct ConeSurface {
     double half_angle = 0;                            ///< radians
 };
 
-using Surface = std::variant<PlaneSurface, CylinderSurface, ConeSurface>;
+/// The tube's circle of radius `minor_mm` goes round the axis at `major_mm` from it.
+struct TorusSurface {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit
+    double major_mm = 0;                              ///< more than minor_mm
+    double minor_mm = 0;
+};
+
+using Surface = std::variant<PlaneSurface, CylinderSurface, ConeSurface, TorusSurface>;
 
 /// x(t) = origin + t * direction
 struct LineCurve {
@@ -68,7 +76,8 @@ using Loop = std::vector<EdgeUse>;
 
 struct Face {
     Surface surface;
-    bool outward = true;      ///< the surface's own normal (away from its axis) leaves the solid
+    bool outward =
+        true;  ///< the surface's own normal (away from its axis or tube) leaves the solid
     std::vector<Loop> loops;  ///< the outer one first; a face that goes round its axis has one loop
                               ///< that runs along its seam twice
 };
@@ -91,7 +100,7 @@ struct Solid {
 /// The parameter of the point nearest to p; of an ellipse within (-pi, pi].
 [[nodiscard]] double parameter_of(const Curve& curve, const Eigen::Vector3d& p);
 
-/// Signed distance, positive away from the axis or along the normal.
+/// Signed distance, positive away from the axis or tube, or along the normal.
 [[nodiscard]] double distance_mm(const Surface& surface, const Eigen::Vector3d& p);
 
 /// Unit gradient of distance_mm().

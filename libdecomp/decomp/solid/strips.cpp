@@ -174,8 +174,7 @@ std::optional<Chorded> Strips::settle(
         return std::nullopt;
     }
     const double sagitta_mm = sagitta_of(found, guess);
-    if (!(median <= std::max(kFloatNoise * options_.planar_mm, kRestOfSagitta * sagitta_mm)) ||
-        strips_among(found, guess) < kFewestStrips) {
+    if (!(median <= rest_mm(sagitta_mm)) || strips_among(found, guess) < kFewestStrips) {
         return std::nullopt;
     }
     return Chorded{std::move(found), guess, sagitta_mm};
@@ -192,6 +191,10 @@ double Strips::sagitta_of(const std::vector<std::uint32_t>& found, const Guess& 
                                                         guess.circle.centre)));
     }
     return (guess.circle.radius - nearest) / guess.rulings.magnified();
+}
+
+double Strips::rest_mm(double sagitta_mm) const {
+    return std::max(kFloatNoise * options_.planar_mm, kRestOfSagitta * sagitta_mm);
 }
 
 double Strips::reach_mm(double sagitta_mm) const {

@@ -110,6 +110,9 @@ class Strips {
     [[nodiscard]] double sagitta_of(const std::vector<std::uint32_t>& found,
                                     const Guess& guess) const;
 
+    /// The median of the points' distances from a fitted surface is no more.
+    [[nodiscard]] double rest_mm(double sagitta_mm) const;
+
     /// Points deviate from a surface that is not yet fitted by no more.
     [[nodiscard]] double reach_mm(double sagitta_mm) const;
 
@@ -133,6 +136,13 @@ struct Nearest {
 
 void find_cylinders(Facets& facets, const RegionOptions& options);
 
+/// Lays cones on the axis of cylinders and cones beside them where it almost is theirs.
+void align_cones(Facets& facets, const RegionOptions& options);
+
 void find_cones(Facets& facets, const RegionOptions& options);
+
+/// Joins cones and cylinders about one axis whose rims lie on a circle of the half plane through
+/// it.
+void find_tori(Facets& facets, const RegionOptions& options);
 
 }  // namespace decomp::solid

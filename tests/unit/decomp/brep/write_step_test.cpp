@@ -96,6 +96,41 @@ TEST(StepWriter, ConesComeBackAsConesOfTheirExactVolume) {
     }
 }
 
+TEST(StepWriter, RoundedEdgesComeBackAsToriOfTheirExactVolume) {
+    const double x = 80;
+    const double y = 60;
+    const double corner = 15;
+    const double r = 4;
+    // A section inset by d loses this much; the inset runs over a quarter circle.
+    const double whole = x * y - (4 - pi) * corner * corner;
+    const double volume = whole * 10 +
+                          (-2 * (x + y) + 2 * (4 - pi) * corner) * r * r * (1 - pi / 4) +
+                          pi * r * r * r * (5.0 / 3 - pi / 2);
+    const auto bodies =
+        read_again(written({{"plate", solid_of(tests::rounded_plate(x, y, 10, corner, r, 6, 6))}}));
+    ASSERT_EQ(bodies.size(), 1);
+    const BodyFigures& figures = bodies[0].figures;
+    EXPECT_TRUE(figures.valid && figures.closed);
+    EXPECT_EQ(figures.faces, 18);
+    EXPECT_NEAR(figures.volume_mm3, volume, 1e-8 * volume);
+
+    // A bar whose upper edge is rounded: half of a ring of section r * r less a quarter circle.
+    std::vector<std::array<double, 2>> profile{{6, 30}};
+    for (int i = 1; i <= 6; ++i) {
+        profile.push_back({6 + 4 * std::sin(pi / 12 * i), 26 + 4 * std::cos(pi / 12 * i)});
+    }
+    profile.push_back({10, 0});
+    const auto bar = read_again(written({{"bar", solid_of(tests::revolved(30, profile, 0, 32))}}));
+    ASSERT_EQ(bar.size(), 1);
+    EXPECT_TRUE(bar[0].figures.valid && bar[0].figures.closed);
+    EXPECT_EQ(bar[0].figures.faces, 4);
+    // Pappus: the corner's area, square less quarter circle, at its centre of gravity.
+    const double square = 4 * 4 * 8.0;
+    const double quarter = pi * 4 * (6 + 4 * 4 / (3 * pi));
+    const double bar_mm3 = pi * 100 * 30 - 2 * pi * (square - quarter);
+    EXPECT_NEAR(bar[0].figures.volume_mm3, bar_mm3, 1e-8 * bar_mm3);
+}
+
 TEST(StepWriter, AConeBesideItsRimsIsCaught) {
     // The seeded fault: the apex 0.1 mm off along the axis, or a half angle 1 mrad off.
     for (const bool apex : {true, false}) {
