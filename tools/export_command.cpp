@@ -39,6 +39,7 @@ decomp::Result<Answer> export_job(const Command& command, const decomp::Run& run
                                         {"planes", part.planes},
                                         {"cylinders", part.cylinders},
                                         {"cones", part.cones},
+                                        {"tori", part.tori},
                                         {"removed_points", part.removed_points},
                                         {"decimation_mm", part.decimation_mm},
                                         {"sagitta_mm", part.sagitta_mm},
@@ -46,7 +47,8 @@ decomp::Result<Answer> export_job(const Command& command, const decomp::Run& run
         answer.text +=
             file + ": " + std::to_string(part.faces) + " faces (" + std::to_string(part.planes) +
             " planes, " + std::to_string(part.cylinders) + " cylinders, " +
-            std::to_string(part.cones) + " cones), " + std::to_string(part.bytes / 1000) + " kB, " +
+            std::to_string(part.cones) + " cones, " + std::to_string(part.tori) + " tori), " +
+            std::to_string(part.bytes / 1000) + " kB, " +
             (part.removed_points == 0
                  ? "nothing joined"
                  : "within " + decomp::decimal(part.decimation_mm, 4) + " mm of the part") +

@@ -38,7 +38,7 @@ row() {
     python3 "$here/step_rows.py" "$name" "$job" "$out"
 }
 
-echo "model        part  triangles  faces  cyl cones     kB  to solid  to part  write CPU s  FreeCAD      dV/V   open s"
+echo "model        part  triangles  faces  cyl cones tori     kB  to solid  to part  write CPU s  FreeCAD      dV/V   open s"
 row max-planck "$HEW_MODELS/paper/hfd_maxplank.obj" --up y --height 245mm
 row bu "$HEW_MODELS/paper/hfd_BU.obj" --up x --height 300mm
 row angel "$HEW_MODELS/paper/av_angel1.mesh" --height 250mm

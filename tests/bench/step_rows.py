@@ -16,5 +16,5 @@ for row in json.load(open(scratch / "export.json"))["parts"]:
         sound = "valid" if judge["valid"] and judge["closed"] else "FAULTY"
         change = (judge["volume_mm3"] - part["volume_mm3"]) / part["volume_mm3"]
         verdict = f"{judge['type']} {sound} {change:9.1e} {judge['cpu_s']:7.1f}"
-    print(f"{name:<12} {row['id']:<5} {part['triangles']:9d} {row['faces']:6d} {row['cylinders']:4d} {row['cones']:5d} "
+    print(f"{name:<12} {row['id']:<5} {part['triangles']:9d} {row['faces']:6d} {row['cylinders']:4d} {row['cones']:5d} {row['tori']:4d} "
           f"{row['bytes'] // 1000:6d} {to_solid:>9} {to_part:>8} {cpu:>12}  {verdict}", flush=True)

@@ -337,6 +337,7 @@ Json step_part_json(const StepPartFacts& part) {
             {"planes", part.planes},
             {"cylinders", part.cylinders},
             {"cones", part.cones},
+            {"tori", part.tori},
             {"removed_points", part.removed_points},
             {"decimation_mm", part.decimation_mm},
             {"sagitta_mm", part.sagitta_mm},
@@ -350,7 +351,9 @@ StepPartFacts read_step_part(const Json& json) {
     part.faces = json.at("faces");
     part.planes = json.at("planes");
     part.cylinders = json.at("cylinders");
-    part.cones = json.value("cones", std::size_t{0});  // jobs of before had none
+    // Jobs of before had neither.
+    part.cones = json.value("cones", std::size_t{0});
+    part.tori = json.value("tori", std::size_t{0});
     part.removed_points = json.at("removed_points");
     part.decimation_mm = json.at("decimation_mm");
     part.sagitta_mm = json.at("sagitta_mm");

@@ -110,6 +110,7 @@ struct StepPartFacts {
     std::size_t planes = 0;  ///< of more than one triangle
     std::size_t cylinders = 0;
     std::size_t cones = 0;
+    std::size_t tori = 0;
     std::size_t removed_points = 0;
     double decimation_mm = 0;  ///< distance to the part, either way
     double sagitta_mm = 0;     ///< of the chords that curved faces replace

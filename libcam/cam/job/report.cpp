@@ -137,6 +137,7 @@ std::string report_json(const JobFile& job) {
                                     {"planes", part.planes},
                                     {"cylinders", part.cylinders},
                                     {"cones", part.cones},
+                                    {"tori", part.tori},
                                     {"decimation_mm", rounded(part.decimation_mm, 6)},
                                     {"sagitta_mm", rounded(part.sagitta_mm, 6)},
                                     {"volume_mm3", rounded(part.volume_mm3, 3)}});

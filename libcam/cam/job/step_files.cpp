@@ -118,6 +118,7 @@ StepPartFacts facts_of(const std::string& id, const WrittenPart& written) {
     facts.planes = report.planes;
     facts.cylinders = report.cylinders;
     facts.cones = report.cones;
+    facts.tori = report.tori;
     facts.removed_points = report.removed_points;
     facts.decimation_mm = report.decimation_mm;
     facts.sagitta_mm = report.sagitta_mm;
@@ -128,7 +129,7 @@ StepPartFacts facts_of(const std::string& id, const WrittenPart& written) {
 }  // namespace
 
 StageKey step_key(const JobFile& job, const StageRunner& stages) {
-    constexpr int kRevision = 2;
+    constexpr int kRevision = 3;
     const StepWish& wish = job.options.step;
     StageKey key("step", kRevision);
     key.add("tolerance", wish.tolerance_mm.value_or(kPrintedStepMm))
