@@ -144,7 +144,11 @@ TEST(Export, AStepFileIsAModelLikeAnyOther) {
 
 TEST(Export, MoreFacesThanCadProgramsBearAreRefused) {
     const TempDir dir;
-    const std::string model = write_stl(dir, "ball.stl", sphere(40, 130, 64));
+    TriMesh egg = sphere(40, 130, 64);
+    for (Eigen::Vector3d& p : egg.points) {
+        p = Eigen::Vector3d(p.x(), 0.8 * p.y() + 0.05 * p.z(), 0.9 * p.z());
+    }
+    const std::string model = write_stl(dir, "egg.stl", egg);
     const std::string out = (dir / "out").string();
     ASSERT_EQ(hew({"decompose", model, "--machine", "prusa-mk3s", "-o", out, "-q"}).exit_code, 0);
     const auto refused = hew({"export", out, "--step", "--step-tol", "0.0001mm", "--json"});

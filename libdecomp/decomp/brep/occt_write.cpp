@@ -44,6 +44,8 @@ TopLoc_Location location_of(const Eigen::Isometry3d& map) {
     gp_Trsf motion;
     motion.SetValues(m(0, 0), m(0, 1), m(0, 2), m(0, 3), m(1, 0), m(1, 1), m(1, 2), m(1, 3),
                      m(2, 0), m(2, 1), m(2, 2), m(2, 3));
+    // The rotation's last digits are no scaling, which the kernel refuses.
+    motion.SetScaleFactor(1);
     return {motion};
 }
 
