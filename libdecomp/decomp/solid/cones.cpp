@@ -57,37 +57,49 @@ class ConeFinder {
     /// of the largest.
     void align_all() const {
         const std::vector<std::vector<std::uint32_t>> curved = facets_.curved_facets();
-        const std::uint32_t first = facets_.flat_count();
-        std::vector<std::uint32_t> order(curved.size());
-        std::iota(order.begin(), order.end(), first);
-        const auto is_round = [&](std::uint32_t r) {
-            return std::holds_alternative<CylinderSurface>(facets_.region(r).surface);
-        };
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return is_round(a) != is_round(b)
-                       ? is_round(a)
-                       : facets_.region(a).area_mm2 > facets_.region(b).area_mm2;
-        });
         std::vector<bool> done(curved.size(), false);
-        for (const std::uint32_t leader : order) {
+        for (const std::uint32_t leader : leaders(curved.size())) {
             std::vector<std::uint32_t> row;
-            if (!done[leader - first]) {
+            if (!done[leader - facets_.flat_count()]) {
                 row.push_back(leader);
-                done[leader - first] = true;
+                done[leader - facets_.flat_count()] = true;
             }
             for (std::size_t i = 0; i < row.size(); ++i) {
-                for (const std::uint32_t r : facets_.curved_neighbours_of(curved[row[i] - first])) {
-                    if (!done[r - first] && !is_round(r) &&
-                        align(r, curved[r - first], axis_of(facets_.region(row[i]).surface))) {
-                        done[r - first] = true;
-                        row.push_back(r);
-                    }
-                }
+                align_beside(row[i], curved, done, row);
             }
         }
     }
 
   private:
+    [[nodiscard]] bool is_cylinder(std::uint32_t r) const {
+        return std::holds_alternative<CylinderSurface>(facets_.region(r).surface);
+    }
+
+    /// All curved regions: cylinders first, then by area.
+    [[nodiscard]] std::vector<std::uint32_t> leaders(std::size_t count) const {
+        std::vector<std::uint32_t> order(count);
+        std::iota(order.begin(), order.end(), facets_.flat_count());
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return is_cylinder(a) != is_cylinder(b)
+                       ? is_cylinder(a)
+                       : facets_.region(a).area_mm2 > facets_.region(b).area_mm2;
+        });
+        return order;
+    }
+
+    /// Lays the cones beside a region on its axis and adds them to the row.
+    void align_beside(std::uint32_t region, const std::vector<std::vector<std::uint32_t>>& curved,
+                      std::vector<bool>& done, std::vector<std::uint32_t>& row) const {
+        const std::uint32_t first = facets_.flat_count();
+        for (const std::uint32_t r : facets_.curved_neighbours_of(curved[region - first])) {
+            if (!done[r - first] && !is_cylinder(r) &&
+                align(r, curved[r - first], axis_of(facets_.region(region).surface))) {
+                done[r - first] = true;
+                row.push_back(r);
+            }
+        }
+    }
+
     /// The line in which two facets meet: a straight line of the cone that they chord.
     [[nodiscard]] Eigen::Vector3d ridge(std::uint32_t f, std::uint32_t g) const {
         return facets_[f].normal.cross(facets_[g].normal).normalized();
@@ -347,7 +359,8 @@ class ConeFinder {
     }
 
     /// Lays a cone on the axis of a neighbour. False where it has another, or keeps to planes.
-    bool align(std::uint32_t r, const std::vector<std::uint32_t>& own, const AxisLine& line) const {
+    [[nodiscard]] bool align(std::uint32_t r, const std::vector<std::uint32_t>& own,
+                             const AxisLine& line) const {
         const Region& region = facets_.region(r);
         const auto& before = std::get<ConeSurface>(region.surface);
         const std::vector<Eigen::Vector3d> points = points_of(own);

@@ -105,7 +105,7 @@ class Meeting {
         for (const std::int32_t r : own_) {
             meeting.push_back(region(r).surface);
         }
-        const Point found = solid::common_point(start, meeting);
+        Point found = solid::common_point(start, meeting);
         std::vector<Surface> circles;
         for (const Surface& a : meeting) {
             for (const Surface& b : meeting) {
