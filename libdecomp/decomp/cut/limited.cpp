@@ -240,10 +240,9 @@ Result<std::vector<std::int32_t>> split_region_at(Cells& cells, std::int32_t reg
         }
     }
     std::vector<SectionPart> chosen;
-    for (std::size_t i = 0; i < section.size(); ++i) {
-        const SectionPiece& piece = section[i].piece;
-        if (groups.of(piece.below) != groups.of(piece.above)) {
-            chosen.push_back(section[i]);
+    for (const SectionPart& part : section) {
+        if (groups.of(part.piece.below) != groups.of(part.piece.above)) {
+            chosen.push_back(part);
         }
     }
     if (chosen.empty()) {
