@@ -64,6 +64,7 @@ Action declare_export(CLI::App& app, const Common& /*common*/) {
     auto command = std::make_shared<Command>();
     app.add_option("job", command->directory, "a job directory")->required();
     add_step_options(app, command->wish);
+    app.add_flag("--force", command->wish.many_faces, "as --step-many")->group("General");
     return [command](const decomp::Run& run) { return export_job(*command, run); };
 }
 

@@ -155,6 +155,8 @@ TEST(Export, MoreFacesThanCadProgramsBearAreRefused) {
     EXPECT_EQ(refused.exit_code, 4);
     EXPECT_EQ(object_of(refused)["error"]["code"], "solid.too_many_faces");
     EXPECT_EQ(hew({"inspect", out + "/parts/P01.ply", "-q"}).exit_code, 0) << "the job is whole";
+    EXPECT_EQ(hew({"export", out, "--step", "--step-tol", "0.0001mm", "--force", "-q"}).exit_code,
+              0);
 }
 
 TEST(Export, ItMustBeToldWhat) {
