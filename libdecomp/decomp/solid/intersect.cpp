@@ -16,7 +16,6 @@ namespace {
 constexpr double kParallel = 1e-6;  ///< sine of the angle between directions that count as one
 constexpr double kSlender = 1e-3;   ///< a longer ellipse is taken for a mistake
 constexpr double kShortestMm = 1e-6;
-constexpr double kLongest = 1.25;     ///< between an arc and its chords, of 31 degrees at most
 constexpr double kTouchingMm = 1e-5;  ///< a torus so near to a surface touches it
 constexpr double kOnCurveMm = 1e-5;   ///< between the curve and its ends or surfaces
 constexpr double kSlideMm = 2e-4;     ///< of a line along a surface that touches; it stays on it
@@ -82,24 +81,6 @@ std::optional<BoundedCurve> line_along(const std::vector<Eigen::Vector3d>& path)
     return BoundedCurve{LineCurve{path.front(), way / length}, 0, length};
 }
 
-/// Is the arc little longer than its chords? Otherwise it is another way between the same ends: a
-/// plane almost along the axis meets a cylinder far away.
-bool stays_near(const BoundedCurve& arc, const std::vector<Eigen::Vector3d>& path) {
-    constexpr int kPieces = 32;
-    double arc_mm = 0;
-    for (int i = 0; i < kPieces; ++i) {
-        const double step = (arc.t1 - arc.t0) / kPieces;
-        arc_mm +=
-            (point_at(arc.curve, arc.t0 + (i + 1) * step) - point_at(arc.curve, arc.t0 + i * step))
-                .norm();
-    }
-    double path_mm = 0;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-        path_mm += (path[i + 1] - path[i]).norm();
-    }
-    return arc_mm <= kLongest * path_mm;
-}
-
 std::optional<BoundedCurve> arc_along(EllipseCurve curve, const std::vector<Eigen::Vector3d>& path,
                                       bool closed) {
     double turn = 0;
@@ -115,8 +96,7 @@ std::optional<BoundedCurve> arc_along(EllipseCurve curve, const std::vector<Eige
         if (std::abs(turn - kRound) > 0.1) {
             return std::nullopt;
         }
-        const BoundedCurve whole{curve, 0, kRound};
-        return stays_near(whole, path) ? std::optional(whole) : std::nullopt;
+        return BoundedCurve{curve, 0, kRound};
     }
     const double t0 = parameter_of(curve, path.front());
     double t1 = parameter_of(curve, path.back());
@@ -126,8 +106,7 @@ std::optional<BoundedCurve> arc_along(EllipseCurve curve, const std::vector<Eige
         (t1 - t0) * curve.minor.norm() < kShortestMm) {
         return std::nullopt;
     }
-    const BoundedCurve arc{curve, t0, t1};
-    return stays_near(arc, path) ? std::optional(arc) : std::nullopt;
+    return BoundedCurve{curve, t0, t1};
 }
 
 /// Along the axis of a cylinder, where a plane or another cylinder touches or cuts it.
