@@ -132,6 +132,15 @@ Result<std::vector<ProvedMilling>> proofs_of(const std::vector<MillFile>& progra
     return proofs;
 }
 
+/// What stands on a sheet beside its programs, by name.
+void name_files(MillSheet& sheet, std::vector<MillFile> programs, const std::string& stem) {
+    sheet.part_file = stem + ".part.stl";
+    for (const MillFile& program : programs) {
+        sheet.pictures.push_back(fs::path(program.name).stem().string() + ".stock.png");
+    }
+    sheet.programs = std::move(programs);
+}
+
 /// The programs and what is written beside them: the part as it was planned, proofs, the sheet.
 std::vector<MillFile> all_files(const MillSheet& sheet, const std::vector<ProvedMilling>& proofs,
                                 const decomp::mesh::TriMesh& part, const std::string& stem) {
@@ -259,12 +268,8 @@ Result<Answer> mill(const Command& command, const Run& outer) {
     const std::string stem = command.out.stem().string();
     sheet.plan = &*plan;
     sheet.setup = &*setup;
-    sheet.part_file = stem + ".part.stl";
     sheet.material = material->title;
-    for (const MillFile& program : *programs) {
-        sheet.pictures.push_back(fs::path(program.name).stem().string() + ".stock.png");
-    }
-    sheet.programs = std::move(*programs);
+    name_files(sheet, std::move(*programs), stem);
     const fs::path directory = command.out.parent_path();
     const auto written =
         write_files(directory, all_files(sheet, *proofs, part, stem), command.force);
