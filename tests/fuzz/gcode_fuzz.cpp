@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arbitrary bytes as a program, proved against a small box, in the Marlin and in the Sailfish
-// reading.
+// reading; and as the sidecar of a proof, of printing and of milling.
+#include "cam/millproof/record.h"
 #include "cam/verify/proof_json.h"
 #include "tests/support/shapes.h"
 
@@ -25,5 +26,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     }
     (void)cam::verify::read_proof_json(program);
+    const auto milled = cam::millproof::read_proof_json(program);
+    if (milled && !cam::millproof::is_mill_record(program)) {
+        __builtin_trap();
+    }
     return 0;
 }

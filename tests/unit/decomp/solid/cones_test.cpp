@@ -22,7 +22,9 @@ using decomp::solid::MadeSolid;
 using std::numbers::pi;
 using tests::euler;
 using tests::farthest_off;
+using tests::in_float;
 using tests::made;
+using tests::turned;
 
 std::vector<ConeSurface> cones_of(const MadeSolid& solid) {
     return tests::surfaces_of<ConeSurface>(solid);
@@ -75,19 +77,6 @@ TriMesh sector(double angle, std::uint32_t strips) {
     mesh.triangles.push_back({0, 3, 1});
     mesh.triangles.push_back({0, last + 1, last});
     mesh.triangles.push_back({0, 1, last + 1});
-    return mesh;
-}
-
-TriMesh turned(const TriMesh& mesh) {
-    return decomp::mesh::transformed(
-        mesh, Eigen::Affine3d(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
-                              Eigen::Translation3d(3, 4, 5)));
-}
-
-TriMesh in_float(TriMesh mesh) {
-    for (Eigen::Vector3d& p : mesh.points) {
-        p = p.cast<float>().cast<double>();
-    }
     return mesh;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "decomp/mesh/measure.h"
 #include "decomp/solid/make_solid.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +21,21 @@ inline decomp::solid::MadeSolid made(const decomp::mesh::TriMesh& mesh,
     const auto solid = decomp::solid::make_solid({"P01", mesh, {}}, options, decomp::Run{});
     EXPECT_TRUE(solid) << (solid ? "" : solid.error().text());
     return solid ? *solid : decomp::solid::MadeSolid{};
+}
+
+/// The mesh somewhere else, along no axis.
+inline decomp::mesh::TriMesh turned(const decomp::mesh::TriMesh& mesh) {
+    return decomp::mesh::transformed(
+        mesh, Eigen::Affine3d(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
+                              Eigen::Translation3d(3, 4, 5)));
+}
+
+/// What an STL keeps of it.
+inline decomp::mesh::TriMesh in_float(decomp::mesh::TriMesh mesh) {
+    for (Eigen::Vector3d& p : mesh.points) {
+        p = p.cast<float>().cast<double>();
+    }
+    return mesh;
 }
 
 /// V - E + F, with one more loop counted for every hole in a face.

@@ -21,7 +21,9 @@ using decomp::solid::TorusSurface;
 using std::numbers::pi;
 using tests::euler;
 using tests::farthest_off;
+using tests::in_float;
 using tests::made;
+using tests::turned;
 
 std::vector<TorusSurface> tori_of(const MadeSolid& solid) {
     return tests::surfaces_of<TorusSurface>(solid);
@@ -48,19 +50,6 @@ TriMesh filleted_stem(std::uint32_t around, int down) {
     profile.push_back({12, 4});
     profile.push_back({12, 0});
     return tests::revolved(30, profile, 0, around);
-}
-
-TriMesh turned(const TriMesh& mesh) {
-    return decomp::mesh::transformed(
-        mesh, Eigen::Affine3d(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
-                              Eigen::Translation3d(3, 4, 5)));
-}
-
-TriMesh in_float(TriMesh mesh) {
-    for (Eigen::Vector3d& p : mesh.points) {
-        p = p.cast<float>().cast<double>();
-    }
-    return mesh;
 }
 
 TEST(Tori, ARoundedEdgeOfABarIsOneTorus) {
