@@ -7,6 +7,7 @@
 #include "decomp/cut/shells.h"
 #include "decomp/cut/written.h"
 #include "decomp/mesh/measure.h"
+#include "decomp/part/part_id.h"
 
 #include <algorithm>
 #include <cmath>
@@ -209,11 +210,6 @@ Result<FaceTriangles> triangulate(const Cells& cells, const Run& run, const auto
     return out;
 }
 
-std::string part_id(std::size_t index) {
-    const std::string digits = std::to_string(index + 1);
-    return "P" + std::string(digits.size() < 2 ? 2 - digits.size() : 0, '0') + digits;
-}
-
 /// Sources with the indices of the assembly instead of those of the complex.
 void renumber(part::Assembly& assembly, const Cells& cells,
               const std::vector<std::int32_t>& order) {
@@ -400,7 +396,7 @@ Result<part::Assembly> Complex::assemble(const std::vector<std::int32_t>& order,
     assembly.parts.resize(order.size());
     for_each_index(run, order.size(), [&](std::size_t i) {
         assembly.parts[i] = written(cells, order[i], *triangles);
-        assembly.parts[i].id = part_id(i);
+        assembly.parts[i].id = part::part_id(i);
     });
     std::vector<std::optional<Error>> faults(order.size());
     for_each_index(run, order.size(),

@@ -5,6 +5,7 @@
 #include "decomp/base/number.h"
 #include "decomp/cells/cells.h"
 #include "decomp/mesh/measure.h"
+#include "decomp/part/part_id.h"
 #include "decomp/partition/extent.h"
 #include "decomp/pipeline/finish.h"
 #include "decomp/plan/workpiece.h"
@@ -30,11 +31,6 @@ std::string first_violation(const part::Verdict& verdict) {
     return violation.constraint + " by " + decimal(violation.by_ratio, 3);
 }
 
-std::string part_name(std::size_t index) {
-    const std::string number = std::to_string(index + 1);
-    return "P" + std::string(number.size() < 2 ? 1 : 0, '0') + number;
-}
-
 /// What all tries share.
 struct Task {
     const DecomposeOptions& options;
@@ -53,7 +49,7 @@ class Hands {
         const std::vector<std::int32_t> order =
             reading_order(piece_.complex(), task.diagonal_mm, run);
         for (std::size_t i = 0; i < order.size(); ++i) {
-            parts_.emplace(part_name(i), piece_.name_of(order[i]));
+            parts_.emplace(part::part_id(i), piece_.name_of(order[i]));
         }
     }
 
